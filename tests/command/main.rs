@@ -15,6 +15,7 @@ mod extra_inputs;
 mod faults;
 mod forecast;
 mod gas_and_parcels;
+mod laboratory_files;
 mod licences;
 mod map;
 mod pages;

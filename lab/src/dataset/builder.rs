@@ -4,14 +4,15 @@ use std::io::Read;
 
 use super::column::{ColumnCells, ColumnValues};
 use super::column_map::ColumnMap;
-use super::column_names::{DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
+use super::column_names::{CAPTURES, DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
+use super::headings;
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
 use super::measurements::{Measurement, Measurements, Unselected};
 use super::notes::{self, NoteCounts};
-use super::number::{NamedColumns, NumberStyle, is_blank};
+use super::number::{NamedColumns, is_blank};
 use super::observed::ObservedCells;
 use super::row_error::RowFault;
 use super::selection::{RowSelection, Ticket};
@@ -24,6 +25,7 @@ const SHOWN_LABELS: usize = 5;
 /// The state of a file while it is read.
 struct Builder<'a> {
     map: &'a ColumnMap,
+    separator: u8,
     walls: &'a WallChoice<'a>,
     named: NamedColumns,
     inputs: InputColumns,
@@ -37,6 +39,9 @@ struct Builder<'a> {
     rows: Vec<Measurement>,
     /// Number of records.
     read: usize,
+    /// Whether a column may state captures, and the number of rows that do.
+    records_captures: bool,
+    outcomes: usize,
     /// Number of usable rows, selected or not.
     usable: usize,
     rejected: Vec<BadRow>,
@@ -59,7 +64,7 @@ impl<'a> Builder<'a> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem.to_string()))?;
         let inputs = InputColumns::new(|name| named.column(name));
-        let style = NumberStyle { markers: true, ..map.style };
+        let style = table.style();
         let unnamed = |name: &str| {
             let own = |(index, header): &(usize, &str)| *header == name && named.name_of(*index).is_none();
             headers.iter().enumerate().find(own).map(|(index, _)| index).filter(|_| !map.ignores(name))
@@ -74,6 +79,7 @@ impl<'a> Builder<'a> {
             let problem = format!("the file has no observation; add a column {}", OBSERVATIONS.join(", "));
             return Err(table.column_fault(&problem, true));
         }
+        let records_captures = CAPTURES.iter().any(|name| named.index(name).is_some());
         walls.check(named.index("wall").is_some())?;
         let mut causes = causes(headers, map, &named);
         // A column of groups tells rows apart also where the model has an input of its name.
@@ -87,6 +93,7 @@ impl<'a> Builder<'a> {
             extra_counts: vec![[0; 2]; inputs.extra().count()],
             selection: RowSelection::new(most),
             map,
+            separator: table.separator(),
             walls,
             named,
             inputs,
@@ -95,6 +102,8 @@ impl<'a> Builder<'a> {
             causes,
             rows: Vec::new(),
             read: 0,
+            records_captures,
+            outcomes: 0,
             usable: 0,
             rejected: Vec::new(),
             counts: NoteCounts::default(),
@@ -102,22 +111,29 @@ impl<'a> Builder<'a> {
     }
 
     /// Adds the next record: its line, or why it cannot be used. Rows that are not kept go to `unselected`.
+    ///
+    /// # Errors
+    /// A row with which the file cannot be used.
     fn take(
         &mut self,
         next: Result<u64, BadRow>,
         cells: &csv::StringRecord,
         unselected: &mut dyn FnMut(Measurement),
-    ) {
+    ) -> Result<(), BadRow> {
         self.read += 1;
-        let next = next.map_err(|bad| with_lines(bad, cells));
-        let row = next.and_then(|line| {
-            self.read(line, cells).map_err(|error| BadRow { line, reason: error.to_string() })
-        });
+        let row = match next.map_err(|bad| with_lines(bad, cells)) {
+            Ok(line) => match self.read(line, cells) {
+                Err(error) if error.is_of_file() => return Err(BadRow { line, reason: error.to_string() }),
+                read => read.map_err(|error| BadRow { line, reason: error.to_string() }),
+            },
+            Err(bad) => Err(bad),
+        };
         match row {
             Ok(row) => self.add(row, cells, unselected),
             Err(bad) if self.rejected.len() < self.selection.most() => self.rejected.push(bad),
             Err(_) => {}
         }
+        Ok(())
     }
 
     fn add(&mut self, row: Measurement, cells: &csv::StringRecord, unselected: &mut dyn FnMut(Measurement)) {
@@ -175,12 +191,13 @@ impl<'a> Builder<'a> {
         let input_errors = self.errors.read(cells, &impact, &self.velocity)?;
         let wall = self.named.index("wall").and_then(|index| cells.get(index)).filter(|cell| !is_blank(cell));
         let wall = self.walls.of(wall)?;
-        let (e_n, e_t, captured) = (None, None, None);
-        let (impacts, rebounds) = (1.0, 1.0);
-        let mut row =
-            Measurement { line, impact, input_errors, stated, wall, impacts, rebounds, e_n, e_t, captured };
+        let mut row = Measurement { line, impact, input_errors, stated, wall, ..Measurement::default() };
         let observed = ObservedCells { columns: &self.named, words: &self.map.words, cells };
         let remarks = observed.read_into(&mut row)?;
+        self.outcomes += usize::from(row.captured.is_some());
+        if self.records_captures && row.is_unstated_rebound() {
+            row.captured = Some(0.0);
+        }
         self.counts.count(&row, remarks, self.map.detection);
         Ok(row)
     }
@@ -190,7 +207,7 @@ impl<'a> Builder<'a> {
         if !cells.as_slice().contains('\n') {
             return Ok(());
         }
-        let separator = char::from(self.map.layout.separator);
+        let separator = char::from(self.separator);
         let is_row = |line: &str| line.matches(separator).count() + 1 >= cells.len();
         match cells.iter().any(|cell| cell.lines().skip(1).any(is_row)) {
             true => Err(RowFault::OpenQuote),
@@ -202,10 +219,17 @@ impl<'a> Builder<'a> {
     ///
     /// # Errors
     /// [`DatasetError::Unreadable`] without rows.
-    fn finish(self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
+    fn finish(mut self, file: &str, headers: &csv::StringRecord) -> Result<Measurements, DatasetError> {
         if self.read == 0 {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
+        }
+        // Where captures are recorded at all, a row with e_n above 0 is one of the rebounds.
+        if self.outcomes > 0 {
+            let unstated = self.rows.iter_mut().filter(|row| row.is_unstated_rebound());
+            unstated.for_each(|row| row.captured = Some(0.0));
+        } else {
+            self.rows.iter_mut().for_each(|row| row.captured = None);
         }
         let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
@@ -297,7 +321,9 @@ impl<'a> Builder<'a> {
     }
 
     fn header_notes(&self, headers: &csv::StringRecord, given: &[&str]) -> Vec<String> {
-        let mut notes = Vec::new();
+        let own =
+            self.named.columns.iter().filter(|c| headers.get(c.index).is_some_and(|h| !self.map.maps(h)));
+        let mut notes = headings::notes(own.map(|column| (column.name, column.index, column.unit)), headers);
         let observable =
             OBSERVATIONS.into_iter().chain(DETAILS).filter(|name| self.named.index(name).is_none());
         let inputs = INPUTS.iter().map(|input| input.name);
@@ -359,13 +385,17 @@ impl Measurements {
     ) -> Result<Self, DatasetError> {
         let own = ColumnMap::default();
         let map = map.unwrap_or(&own);
-        let mut table = CsvTable::open(file, source, map.layout, |name| map.ignores(name))?;
-        let mut builder = Builder::new(&table, map, walls, most)?;
+        let mut table =
+            CsvTable::open(file, source, map.layout, |name| map.ignores(name), |name| map.maps(name))?;
+        let map = map.with_style(table.style());
+        let mut builder = Builder::new(&table, &map, walls, most)?;
         let mut cells = csv::StringRecord::new();
         while let Some(next) = table.next_into(&mut cells)? {
-            builder.take(next, &cells, unselected);
+            builder.take(next, &cells, unselected).map_err(|bad| table.fault(bad.line, bad.reason))?;
         }
-        builder.finish(file, table.headers())
+        let mut data = builder.finish(file, table.headers())?;
+        data.notes.splice(0..0, table.notes());
+        Ok(data)
     }
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::column_names::{ANGLE_ERROR, ONLY_MAPPED, SPEED_ERROR, is_error, names, names_groups};
 use super::csv_table::Layout;
 use super::detection::Detection;
+use super::headings::{self, FoundColumn};
 use super::impact_velocity::{AngleFrom, over_determined};
 use super::number::{NamedColumns, NumberColumn, NumberStyle};
 use super::observed::OutcomeWords;
@@ -61,7 +62,6 @@ impl ColumnMap {
         document.read(|top| {
             let mut map = Self { file: document.name().to_owned(), ..Self::default() };
             map.layout = read_layout(top)?;
-            map.style.decimal_comma = top.choice("decimal", &[".", ","])?.is_some_and(|mark| mark == ",");
             map.ignored = read_names(top, "ignore")?;
             map.labels = read_names(top, "labels")?;
             map.detection = Detection::read(top)?;
@@ -161,6 +161,16 @@ impl ColumnMap {
         names_groups(column) || self.labels.iter().any(|label| label == column)
     }
 
+    /// The same map with the notation of a file's numbers.
+    pub(super) fn with_style(&self, style: NumberStyle) -> Self {
+        Self { style, ..self.clone() }
+    }
+
+    /// Whether the map names this column of the file, and with it the unit.
+    pub(super) fn maps(&self, column: &str) -> bool {
+        self.sources.iter().any(|source| source.column == column)
+    }
+
     /// Whether this column is not used at all.
     pub(super) fn ignores(&self, column: &str) -> bool {
         column.is_empty() || self.ignored.iter().any(|ignored| ignored == column)
@@ -171,25 +181,30 @@ impl ColumnMap {
     /// # Errors
     /// The reason, if a column of the map is missing or a name has two columns.
     pub(super) fn name_columns(&self, headers: &csv::StringRecord) -> Result<NamedColumns, HeaderError> {
-        let columns = names().map(|(name, _)| self.name_column(name, headers));
+        let columns = names().map(|(name, dimension)| self.name_column(name, dimension, headers));
         Ok(NamedColumns { columns: columns.filter_map(Result::transpose).collect::<Result<_, _>>()? })
     }
 
     fn name_column(
         &self,
         name: &'static str,
+        dimension: Dimension,
         headers: &csv::StringRecord,
     ) -> Result<Option<NumberColumn>, HeaderError> {
         let place = |column: &str| headers.iter().position(|header| header == column);
         // In measured data, markers of missing values are blanks.
         let style = NumberStyle { markers: true, ..self.style };
         let found = |index, unit| Ok(Some(NumberColumn { name, index, unit, style }));
-        let taken = self.ignores(name) || self.sources.iter().any(|source| source.column == name);
-        let own = if taken { None } else { place(name) };
+        let free = |header: &str| !self.ignores(header) && !self.maps(header);
+        let own = if self.source(name).is_none() && !ONLY_MAPPED.contains(&name) {
+            headings::find(name, dimension, headers, free)?
+        } else {
+            place(name).filter(|_| free(name)).map(|index| FoundColumn { index, unit: Unit::SI })
+        };
         match (self.source(name), own) {
             (None, _) if ONLY_MAPPED.contains(&name) => Ok(None),
             (None, None) => Ok(None),
-            (None, Some(index)) => found(index, Unit::SI),
+            (None, Some(own)) => found(own.index, own.unit),
             (Some(source), Some(_)) => {
                 Err(HeaderError::TwoColumns { map: self.file.clone(), name, column: source.column.clone() })
             }
@@ -234,10 +249,10 @@ fn read_layout(top: &Section<'_>) -> Result<Layout, InputError> {
     let plain = Layout::default();
     let separator = match top.text("separator")?.as_deref() {
         None => plain.separator,
-        Some("tab") => b'\t',
-        Some(",") => b',',
+        Some("tab") => Some(b'\t'),
+        Some(",") => Some(b','),
         Some(word) => match word.as_bytes() {
-            &[mark @ (b';' | b'\t' | b'|')] => mark,
+            &[mark @ (b';' | b'\t' | b'|')] => Some(mark),
             _ => return Err(top.fault("separator", unknown(word, "separator", &[",", ";", "|", "tab"]))),
         },
     };
@@ -245,15 +260,16 @@ fn read_layout(top: &Section<'_>) -> Result<Layout, InputError> {
         None => plain.comment,
         Some("") => None,
         Some(word) => match word.as_bytes() {
-            &[mark] if mark.is_ascii_punctuation() && mark != separator && mark != b'"' => Some(mark),
+            &[mark] if mark.is_ascii_punctuation() && Some(mark) != separator && mark != b'"' => Some(mark),
             _ => return Err(top.fault("comment", "must be one mark such as \"%\", or \"\" for none")),
         },
     };
+    let decimal_comma = top.choice("decimal", &[".", ","])?.map(|mark| mark == ",");
     let header_line = top.number_within("header_line", 1.0, LAST_HEADER_LINE)?.unwrap_or(1.0);
     if header_line.fract() != 0.0 {
         return Err(top.fault("header_line", "must be a whole number"));
     }
-    Ok(Layout { separator, comment, header_line: header_line as u64 })
+    Ok(Layout { separator, decimal_comma, comment, header_line: header_line as u64 })
 }
 
 #[cfg(test)]

@@ -23,6 +23,9 @@ pub(super) const ONLY_MAPPED: [&str; 4] = ["speed", SPEED_ERROR, "angle", ANGLE_
 /// The columns of observations; a row has at least one of them.
 pub(super) const OBSERVATIONS: [&str; 5] = ["e_n", "e_t", "outcome", "capture_efficiency", "captured"];
 
+/// Those of them that state captures.
+pub(super) const CAPTURES: [&str; 3] = ["outcome", "capture_efficiency", "captured"];
+
 /// The columns that qualify an observation.
 pub(super) const DETAILS: [&str; 3] = ["e_n_err", "e_t_err", "n_impacts"];
 

@@ -2,12 +2,13 @@
 
 use std::io::Read;
 
+use super::column_names::names;
 use super::csv_table::{CsvTable, Layout};
+use super::headings::{self, FoundColumn};
 use super::inputs::InputColumns;
 use super::notes;
 use super::number::{NumberColumn, NumberStyle};
 use super::row_error::{HeaderError, RowFault};
-use super::unit::Unit;
 use super::{BadRow, DatasetError};
 use nearwall::impact::{ExtraInput, INPUTS, Impact};
 
@@ -16,7 +17,7 @@ use nearwall::impact::{ExtraInput, INPUTS, Impact};
 pub struct ImpactRow {
     /// Line in the file, counted from 1.
     pub line: u64,
-    /// Every cell as written.
+    /// Every cell as written, but with decimal points.
     pub cells: csv::StringRecord,
     /// The impact that the cells describe.
     pub impact: Impact,
@@ -32,13 +33,22 @@ impl<R: Read> ImpactReader<R> {
     /// Reads the header; `file` names the source in messages. Lines that begin with `#` are comments.
     ///
     /// # Errors
-    /// [`DatasetError`] for a source that cannot be read, a missing `v_n` or a repeated column.
+    /// [`DatasetError`] for a source that cannot be read, a missing `v_n`, a repeated column or an unknown unit.
     pub fn new(file: &str, source: R) -> Result<Self, DatasetError> {
-        let table = CsvTable::open(file, source, Layout::default(), |_| false)?;
-        let inputs = InputColumns::new(|name| {
-            let index = table.column(name)?;
-            Some(NumberColumn { name, index, unit: Unit::SI, style: NumberStyle::default() })
-        });
+        let table = CsvTable::open(file, source, Layout::default(), |_| false, |_| false)?;
+        let style = NumberStyle { markers: false, ..table.style() };
+        let mut columns = Vec::new();
+        for (name, dimension) in names().filter(|(name, _)| INPUTS.iter().any(|input| input.name == *name)) {
+            let found = headings::find(name, dimension, table.headers(), |_| true);
+            let found = found.map_err(|problem| table.header_fault(problem.to_string()))?;
+            columns.extend(found.map(|FoundColumn { index, unit }| NumberColumn {
+                name,
+                index,
+                unit,
+                style,
+            }));
+        }
+        let inputs = InputColumns::new(|name| columns.iter().find(|column| column.name == name).copied());
         if !inputs.gives("v_n") {
             return Err(table.column_fault(&HeaderError::NoNormalSpeed.to_string(), false));
         }
@@ -49,8 +59,15 @@ impl<R: Read> ImpactReader<R> {
     #[must_use]
     pub fn with_extra_inputs(self, inputs: &[ExtraInput]) -> Self {
         let Self { table, inputs: known } = self;
-        let inputs = known.with_extra(inputs, NumberStyle::default(), |name| table.column(name));
+        let style = NumberStyle { markers: false, ..table.style() };
+        let inputs = known.with_extra(inputs, style, |name| table.column(name));
         Self { table, inputs }
+    }
+
+    /// How the file is read where that is not nearwall's own format.
+    pub fn notes(&self) -> Vec<String> {
+        let columns = self.inputs.columns().map(|column| (column.name, column.index, column.unit));
+        [self.table.notes(), headings::notes(columns, self.headers())].concat()
     }
 
     /// The column names.
@@ -82,7 +99,7 @@ impl<R: Read> ImpactReader<R> {
     /// The next row, or `None` at the end.
     ///
     /// # Errors
-    /// [`DatasetError::Unreadable`] when the source fails.
+    /// [`DatasetError`] when the source fails, and for a length that must be in another unit.
     pub fn next_row(&mut self) -> Result<Option<Result<ImpactRow, BadRow>>, DatasetError> {
         let mut row = ImpactRow::default();
         Ok(self.next_into(&mut row)?.map(|read| read.map(|()| row)))
@@ -93,15 +110,24 @@ impl<R: Read> ImpactReader<R> {
     /// # Errors
     /// As [`Self::next_row`].
     pub fn next_into(&mut self, row: &mut ImpactRow) -> Result<Option<Result<(), BadRow>>, DatasetError> {
-        let next = self.table.next_into(&mut row.cells)?;
-        Ok(next.map(|line| self.read_row(line?, row)))
+        let line = match self.table.next_into(&mut row.cells)? {
+            None => return Ok(None),
+            Some(Err(bad)) => return Ok(Some(Err(bad))),
+            Some(Ok(line)) => line,
+        };
+        match self.read_row(line, row) {
+            Err(error) if error.is_of_file() => Err(self.table.fault(line, error.to_string())),
+            read => Ok(Some(read.map_err(|error| BadRow { line, reason: error.to_string() }))),
+        }
     }
 
-    fn read_row(&self, line: u64, row: &mut ImpactRow) -> Result<(), BadRow> {
+    fn read_row(&self, line: u64, row: &mut ImpactRow) -> Result<(), RowFault> {
         row.line = line;
-        let read = self.inputs.read(&row.cells, &mut row.impact);
-        let checked = read.and_then(|_| Ok(row.impact.check()?));
-        checked.map_err(|error: RowFault| BadRow { line, reason: error.to_string() })
+        self.inputs.read(&row.cells, &mut row.impact)?;
+        if self.table.style().decimal_comma {
+            row.cells = row.cells.iter().map(|cell| self.table.style().with_point(cell)).collect();
+        }
+        Ok(row.impact.check()?)
     }
 }
 
@@ -150,8 +176,8 @@ mod tests {
 
     #[test]
     fn columns_that_resemble_inputs_are_named() {
-        let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t [m/s],operator\n".as_bytes()).unwrap();
-        assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t [m/s]", "v_t")]);
+        let reader = ImpactReader::new("t.csv", "v_n,Tp,v_t (of the bed),operator\n".as_bytes()).unwrap();
+        assert_eq!(reader.near_misses(), [("Tp", "T_p"), ("v_t (of the bed)", "v_t")]);
     }
 
     #[test]

@@ -20,6 +20,9 @@ struct ExtraColumn {
     style: NumberStyle,
 }
 
+/// Largest length of an impact [m]: a larger number is in another unit.
+const LONGEST: f64 = 1.0;
+
 /// Whether a row states each of [`INPUTS`].
 pub(super) type StatedInputs = [bool; INPUTS.len()];
 
@@ -50,6 +53,11 @@ impl InputColumns {
         Self { extra: inputs.iter().enumerate().map(column).collect(), ..self }
     }
 
+    /// The columns of inputs.
+    pub(super) fn columns(&self) -> impl Iterator<Item = &NumberColumn> {
+        self.columns.iter().flatten()
+    }
+
     /// The inputs that the model declares, by place, and whether they have a column.
     pub(super) fn extra(&self) -> impl Iterator<Item = (&ExtraInput, bool)> {
         self.extra.iter().map(|column| (&column.input, column.index.is_some()))
@@ -69,7 +77,7 @@ impl InputColumns {
     /// declares NaN. The impact is not checked yet.
     ///
     /// # Errors
-    /// The reason, for a cell that is not a number or a blank `v_n`.
+    /// The reason, for a cell that is not a number, a blank `v_n` or a length in another unit.
     pub(super) fn read(
         &self,
         cells: &csv::StringRecord,
@@ -80,6 +88,9 @@ impl InputColumns {
         for (place, (input, column)) in INPUTS.iter().zip(&self.columns).enumerate() {
             let Some(column) = column else { continue };
             match column.read(cells)? {
+                Some(value) if input.unit == "m" && value > LONGEST => {
+                    return Err(RowFault::TooLong { name: input.name, value, most: LONGEST });
+                }
                 Some(value) => {
                     (input.set)(impact, value);
                     stated[place] = true;

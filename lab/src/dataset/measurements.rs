@@ -43,7 +43,7 @@ pub struct Unselected {
 }
 
 /// One row: one impact, or an average over several.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Measurement {
     /// Line in the file, counted from 1.
     pub line: u64,
@@ -65,6 +65,17 @@ pub struct Measurement {
     pub e_t: Option<Reading>,
     /// Captured share of the impacts [1], 0 or 1 for a single one.
     pub captured: Option<f64>,
+    /// What is known of `e_n` and `e_t` where a limit takes the place of the value.
+    pub limits: [Option<Limit>; 2],
+}
+
+/// A censored value: it is known to be below or above a limit.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Limit {
+    /// The limit [1], with the standard error of such a reading, if known.
+    pub reading: Reading,
+    /// Whether the value is below the limit rather than above it.
+    pub below: bool,
 }
 
 /// A measured value.
@@ -74,6 +85,15 @@ pub struct Reading {
     pub value: f64,
     /// Its standard error [1], positive, if known.
     pub error: Option<f64>,
+}
+
+impl Measurement {
+    /// Whether it is a rebound although no outcome says so: a single impact with `e_n` above 0.
+    pub fn is_unstated_rebound(&self) -> bool {
+        let above_zero = |limit: Limit| !limit.below && limit.reading.value >= 0.0;
+        let rebounds = self.e_n.is_some_and(|e_n| e_n.value > 0.0) || self.limits[0].is_some_and(above_zero);
+        self.captured.is_none() && self.impacts <= 1.0 && rebounds
+    }
 }
 
 impl Measurements {
@@ -259,9 +279,16 @@ mod tests {
                 (None, exact(0.0), exact(0.3)),
                 (Some(0.0), exact(0.0), exact(0.0)),
                 (Some(1.0), None, None),
-                (None, exact(0.5), None),
+                // Where captures are recorded, a rebound is one although no outcome says so.
+                (Some(0.0), exact(0.5), None),
                 (None, None, exact(0.0)),
             ]
+        );
+        let without = read("v_n,e_n,n_impacts\n1,0.5,\n1,0.5,10\n");
+        assert!(without.rows.iter().all(|row| row.captured.is_none()));
+        assert_eq!(
+            without.rows.iter().map(Measurement::is_unstated_rebound).collect::<Vec<_>>(),
+            [true, false]
         );
     }
 
@@ -323,7 +350,12 @@ mod tests {
              1;75;20;35,5;200;0;ABPRALL;01;1,5;1;;\r\n2;;-10;;200;90;-;1;-2;2;;\r\n3;75;20;1.5;200;30;;1;1;3;;\r\n",
             GERMAN,
         );
-        assert_eq!(reasons(&data), ["5: e_n `1.5` is not a number; the column map sets decimal = \",\""]);
+        assert_eq!(
+            reasons(&data),
+            [
+                "5: e_n `1.5` is not a number; numbers have decimal commas here, or set decimal = \".\" in the column map"
+            ]
+        );
         let [first, second] = data.rows[..] else { unreachable!() };
         let expected = Impact { normal_speed: 2.0, diameter: 75e-6, ..Impact::default() };
         assert_eq!((first.line, first.impact, first.e_n), (3, expected, exact(0.355)));
@@ -334,6 +366,88 @@ mod tests {
         assert_eq!(data.columns[0].values, words(&["01", "1"], &[Some(0), Some(1)]));
         assert_eq!(data.columns[1].values, ColumnValues::Numbers(vec![1.5, -2.0]));
         assert!(data.notes.iter().any(|note| note == "2 columns without a name are not used"));
+    }
+
+    /// Four rows in nearwall's own format, and as the programs of laboratories write them.
+    #[test]
+    fn files_of_laboratories_are_read_without_a_column_map() {
+        let plain = "v_n,d,T_p,T_p_err,e_n,outcome,temper\n1.5,7.5e-5,293.15,2,0.5,rebound,0.5\n\
+                     2,5e-5,300.65,2,,stick,1.5\n";
+        let same = |bytes: &[u8], notes: &[&str]| {
+            let [expected, found] = [plain.as_bytes(), bytes].map(|bytes| try_read(bytes, "", None).unwrap());
+            let text = String::from_utf8_lossy(bytes);
+            assert_eq!(found.rejected, [], "{text}");
+            for (row, expected) in found.rows.iter().zip(&expected.rows) {
+                assert_eq!(
+                    (row.e_n, row.captured, row.stated),
+                    (expected.e_n, expected.captured, expected.stated)
+                );
+                assert_eq!(row.input_errors, expected.input_errors, "{text}");
+                for input in &INPUTS {
+                    let [one, other] = [row, expected].map(|row| (input.value)(&row.impact));
+                    assert!((one - other).abs() <= 1e-12 * other.abs(), "{}: {one}, {other}", input.name);
+                }
+            }
+            assert_eq!((found.rows.len(), &found.columns), (2, &expected.columns), "{text}");
+            for note in notes {
+                assert!(found.notes.iter().any(|one| one == note), "`{note}` is not in {:#?}", found.notes);
+            }
+        };
+        same(plain.as_bytes(), &[]);
+        let german = "v_n;d;T_p;T_p_err;e_n;outcome;temper\n1,5;7,5e-5;293,15;2;0,5;rebound;0,5\n\
+                      2;5e-5;300,65;2;;stick;1,5\n";
+        same(german.as_bytes(), &["read with semicolons and decimal commas"]);
+        same(plain.replace(',', "\t").as_bytes(), &["read with tabs"]);
+        same(german.replace(';', "\t").as_bytes(), &["read with tabs and decimal commas"]);
+        for order in [u16::to_le_bytes, u16::to_be_bytes] {
+            let bytes: Vec<u8> = german.encode_utf16().flat_map(order).collect();
+            same(&bytes, &["read as UTF-16", "read with semicolons and decimal commas"]);
+        }
+        let units = "v_n [cm/s],d (um),T_p [C],T_p_err [F],e_n [%],outcome,temper\n150,75,20,3.6,50,rebound,0.5\n\
+                     200,50,27.5,3.6,,stick,1.5\n";
+        same(
+            units.as_bytes(),
+            &["column `d (um)` is read as d in um", "column `e_n [%]` is read as e_n in %"],
+        );
+        let row = "V_N,d,T_P,t_p_err,E_N,Outcome,temper\ncm/s,µm,C,F,%,-,-\n150,75,20,3.6,50,rebound,0.5\n\
+                   200,50,27.5,3.6,,stick,1.5\n";
+        same(row.as_bytes(), &["line 2 states units", "column `V_N [cm/s]` is read as v_n in cm/s"]);
+        let latin: Vec<u8> = row.chars().map(|mark| mark as u8).collect();
+        same(&latin, &["read as windows-1252, because it is not UTF-8"]);
+    }
+
+    #[test]
+    fn what_a_column_map_states_takes_precedence_over_headings() {
+        let data = mapped(
+            "v_n;d [um];e_n;D\n1,5;75;0,5;3\n",
+            "decimal = \",\"\n[columns]\nd = { column = \"d [um]\", unit = \"mm\" }\n",
+        );
+        assert_eq!(data.rows[0].impact.diameter, 0.075);
+        assert_eq!(data.columns.len(), 1, "a single capital is another quantity");
+        let text = "v_n,size,e_n\nm/s,um,-\n1,75,0.5\n";
+        let data = mapped(text, "[columns]\nd = { column = \"size\", unit = \"mm\" }\n");
+        assert_eq!((data.rows[0].impact.diameter, data.read), (0.075, 1));
+        let text = "v_n,e_n,wall (old),Wall\n1,0.5,x,roof\n";
+        assert_eq!(read(text).rows[0].wall, 0, "other words in brackets and capitals of words are causes");
+    }
+
+    #[test]
+    fn a_limit_is_a_censored_value() {
+        let data = read(
+            "v_n,e_n,e_n_err,e_t,outcome\n1,<0.2,0.01,,\n1,> 0.9,,<=-0.1,\n1,≥0,,,\n1,<x,,,\n1,<0.2,,0,\n1,<4,,,\n\
+             1,<0.2,,,stick\n",
+        );
+        let limit = |value, error, below| Some(Limit { reading: Reading { value, error }, below });
+        let limits: Vec<_> = data.rows.iter().map(|row| row.limits).collect();
+        assert_eq!(limits[0], [limit(0.2, Some(0.01), true), None]);
+        assert_eq!(limits[1], [limit(0.9, None, false), limit(-0.1, None, true)]);
+        assert_eq!(limits[2], [limit(0.0, None, false), None]);
+        assert_eq!((limits[4], data.rows[4].captured), ([None; 2], Some(1.0)));
+        assert_eq!(data.rows[3].captured, None, "below 0.2 may be captured, and e_t = 0 too");
+        assert!(data.rows.iter().all(|row| row.e_n.is_none()));
+        assert_eq!(reasons(&data), ["5: e_n `<x` is not a number", "7: e_n is 4, above 3; check its unit"]);
+        let rebounds: Vec<Option<f64>> = data.rows.iter().map(|row| row.captured).collect();
+        assert_eq!(rebounds, [None, Some(0.0), Some(0.0), None, Some(1.0)]);
     }
 
     #[test]
@@ -373,8 +487,24 @@ mod tests {
         };
         part("v_n,e_n\n# 1,2\n", "", "t.csv: there is no row under the header");
         part("speed,e_n\n1,1\n", "", "no column `v_n`");
-        part("v_n;e_n\n1;1\n", "", "separator = \";\"");
-        part("v_n\te_n\n1\t1\n", "", "separator = \"tab\"");
+        part(
+            "v_n,d [furlong],e_n\n1,1,1\n",
+            "",
+            "t.csv:1: column `d [furlong]`: unknown unit `furlong`; use one of m,",
+        );
+        part("d [um],d [mm],v_n,e_n\n1,1,1,1\n", "", "columns `d [um]` and `d [mm]` both mean d; rename one");
+        part(
+            "v_n,d,e_n\nm/s,furlong,-\n1,1,1\n",
+            "",
+            "t.csv:2: the row states units, but `furlong` is no unit of d",
+        );
+        part("v_n,d,e_n\n1,5,75,0,5\n", "", "t.csv:2: more cells than the header");
+        part("v_n,d,e_n\n1,1e-4,1\n1,88,0.5\n", "", "t.csv:3: d = 88 m: no length of an impact");
+        part(
+            "v_n,d [mm],e_n\n1,1e4,1\n",
+            "",
+            "state the unit, as `d [um]` in the heading or in a column map",
+        );
         part("v_n,humidity\n1,1\n", "", "the file has no observation; add a column e_n, e_t, outcome");
         part("Vn (m/s),e_n\n1,1\n", "[columns]\nv_n = \"Vn [m/s]\"\n", "did you mean `Vn (m/s)`?");
         part("V,v_n,e_n\n1,1,1\n", "[columns]\nv_n = \"V\"\n", "a column `v_n` exists too");

@@ -15,12 +15,15 @@ mod column_map;
 mod column_names;
 mod csv_table;
 mod detection;
+mod encoding;
+mod headings;
 mod impact_reader;
 mod impact_velocity;
 mod input_errors;
 mod inputs;
 mod lines;
 mod measurements;
+mod notation;
 mod notes;
 mod number;
 mod observed;
@@ -37,7 +40,7 @@ pub use column_names::{PARCEL_COLUMNS, names_groups};
 pub use detection::Detection;
 pub use impact_reader::{ImpactReader, ImpactRow};
 pub use input_errors::InputErrors;
-pub use measurements::{Measurement, Measurements, Reading, Unselected};
+pub use measurements::{Limit, Measurement, Measurements, Reading, Unselected};
 pub use notes::{assumed, unlikely};
 pub use rig_measurements::{Experiment, RigMeasurements, RigReading, settings_of};
 pub use rig_observable::{Restitution, RigQuantity};
@@ -55,12 +58,12 @@ pub enum DatasetError {
         /// The reason.
         reason: String,
     },
-    /// The header has an error.
+    /// The header or a line under it has an error that concerns the whole file.
     #[error("{file}:{line}: {problem}")]
     Header {
         /// The name of the file.
         file: String,
-        /// Line of the header, counted from 1.
+        /// The line, counted from 1.
         line: u64,
         /// The error and the remedy.
         problem: String,

@@ -54,6 +54,8 @@ pub(super) struct NoteCounts {
     input_errors: [usize; INPUT_ERRORS.len()],
     /// Rows with an input error above the input.
     large_errors: [usize; INPUT_ERRORS.len()],
+    /// Rows with a limit of `e_n` or `e_t` in place of a value.
+    censored: usize,
     /// The first warning about a unit.
     unlikely: Option<String>,
 }
@@ -65,6 +67,7 @@ impl NoteCounts {
             *blank += usize::from(!stated);
         }
         self.above_one += usize::from(row.e_n.is_some_and(|e_n| e_n.value > 1.0));
+        self.censored += usize::from(row.limits.iter().any(Option::is_some));
         self.uncounted += usize::from(remarks.uncounted);
         self.no_error += usize::from(remarks.no_error);
         let least = detection.least_e_n(&row.impact);
@@ -97,13 +100,20 @@ impl NoteCounts {
             assumed(&absent).map(|text| format!("not in the file, assumed: {text}")).into_iter().collect();
         for (input, blank) in INPUTS.iter().zip(self.blank) {
             if blank > 0 && given.contains(&input.name) {
-                let value = value_text(input, (input.value)(&Impact::default()));
-                notes.push(format!("{} is blank in {blank} of {rows} rows, taken as {value}", input.name));
+                let taken = match rows - blank {
+                    0 | 1 => format!("taken as {}", value_text(input, (input.value)(&Impact::default()))),
+                    _ => "which count with the mean over its stated values".to_owned(),
+                };
+                notes.push(format!("{} is blank in {blank} of {rows} rows, {taken}", input.name));
             }
         }
         notes.extend(self.unlikely.clone());
         let counted = [
             (self.above_one, "e_n is above 1; check its unit unless the wall is rough or the particle spins"),
+            (
+                self.censored,
+                "a restitution is a limit, as <0.2; it counts in the likelihood, not in errors and figures",
+            ),
             (self.uncounted, "capture_efficiency is given without n_impacts; each row counts as one impact"),
             (self.no_error, "a standard error is 0; it is treated as unknown"),
             (self.invisible, "e_n is below the detection limit of the column map; check the limit"),

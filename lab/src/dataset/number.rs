@@ -31,13 +31,21 @@ impl NumberStyle {
         }
     }
 
+    /// The cell with a decimal point, if it is a number with a decimal comma.
+    pub(super) fn with_point(self, cell: &str) -> String {
+        match self.decimal_comma && self.parse(cell).is_some() {
+            true => cell.replace(',', "."),
+            false => cell.to_owned(),
+        }
+    }
+
     /// The error of a cell that is not a number, with the remedy if a column map can help.
     pub(super) fn not_a_number(self, name: &str, cell: &str) -> RowFault {
         let other = Self { decimal_comma: !self.decimal_comma, ..self };
         let hint = match (self.markers && other.parse(cell).is_some(), self.decimal_comma) {
             (false, _) => "",
             (true, false) => "; for a decimal comma set decimal = \",\" in the column map",
-            (true, true) => "; the column map sets decimal = \",\"",
+            (true, true) => "; numbers have decimal commas here, or set decimal = \".\" in the column map",
         };
         RowFault::NotANumber { name: name.to_owned(), cell: cell.to_owned(), hint }
     }
@@ -68,6 +76,24 @@ impl NumberColumn {
         }
         let number = self.style.parse(cell).ok_or_else(|| self.style.not_a_number(self.name, cell))?;
         Ok(Some(self.unit.to_si(number)))
+    }
+
+    /// The limit [SI] of a censored value, and whether the value is below it; `None` where the cell is not censored.
+    ///
+    /// # Errors
+    /// The reason, for a limit that is not a finite number.
+    pub(super) fn read_limit(&self, cells: &csv::StringRecord) -> Result<Option<(f64, bool)>, RowFault> {
+        let cell = cells.get(self.index).unwrap_or("");
+        let below = match cell.chars().next() {
+            Some('<' | '≤') => true,
+            Some('>' | '≥') => false,
+            _ => return Ok(None),
+        };
+        let limit = self.style.parse(cell.trim_start_matches(['<', '≤', '>', '≥', '=', ' ']));
+        match limit.map(|limit| self.unit.to_si(limit)).filter(|limit| limit.is_finite()) {
+            Some(limit) => Ok(Some((limit, below))),
+            None => Err(self.style.not_a_number(self.name, cell)),
+        }
     }
 
     /// As [`Self::read`], without NaN and infinity.

@@ -1,6 +1,6 @@
 //! The observations of a row: of one impact, or an average over several.
 
-use super::measurements::{Measurement, Reading};
+use super::measurements::{Limit, Measurement, Reading};
 use super::number::{NamedColumns, is_blank};
 use super::row_error::RowFault;
 use nearwall::input::{InputError, Section};
@@ -65,6 +65,13 @@ impl OutcomeWords {
     }
 }
 
+/// What a cell of `e_n` or `e_t` says.
+#[derive(Debug, Clone, Copy)]
+enum Seen {
+    Reading(Reading),
+    Limit(Limit),
+}
+
 /// The cells of a row with an observation.
 pub(super) struct ObservedCells<'a> {
     pub(super) columns: &'a NamedColumns,
@@ -88,10 +95,22 @@ impl ObservedCells<'_> {
         let mut no_error = false;
         // Without rebounds there is no e_n and e_t.
         if row.captured != Some(1.0) {
-            row.e_n = self.reading(["e_n", "e_n_err"], 0.0, &mut no_error)?;
-            row.e_t = self.reading(["e_t", "e_t_err"], -HIGHEST, &mut no_error)?;
+            let seen = [
+                self.reading(["e_n", "e_n_err"], 0.0, &mut no_error)?,
+                self.reading(["e_t", "e_t_err"], -HIGHEST, &mut no_error)?,
+            ];
+            let exact = |seen: Option<Seen>| match seen? {
+                Seen::Reading(reading) => Some(reading),
+                Seen::Limit(_) => None,
+            };
+            let limit = |seen: Option<Seen>| match seen? {
+                Seen::Reading(_) => None,
+                Seen::Limit(limit) => Some(limit),
+            };
+            (row.e_n, row.e_t, row.limits) = (exact(seen[0]), exact(seen[1]), seen.map(limit));
         }
         let no_rebound = row.e_n.is_some_and(|e| e.value == 0.0) && row.e_t.is_none_or(|e| e.value == 0.0);
+        let no_rebound = no_rebound && row.limits[1].is_none();
         if row.captured.is_none() && no_rebound {
             // A particle that does not rebound is captured (Troiano et al., Eq. 14).
             (row.captured, row.e_n, row.e_t, no_error) = (Some(1.0), None, None, false);
@@ -102,7 +121,8 @@ impl ObservedCells<'_> {
             Some(1.0) => 0.0,
             Some(share) => (row.impacts * (1.0 - share)).max(1.0),
         };
-        if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() {
+        let limited = row.limits.iter().any(Option::is_some);
+        if row.captured.is_none() && row.e_n.is_none() && row.e_t.is_none() && !limited {
             return Err(RowFault::NoObservation);
         }
         Ok(Remarks { uncounted, no_error })
@@ -158,14 +178,16 @@ impl ObservedCells<'_> {
         }
     }
 
-    /// A restitution of at least `lowest` with its standard error; one of 0 sets `no_error`.
+    /// A restitution of at least `lowest`, or a limit of it, with its standard error; one of 0 sets `no_error`.
     fn reading(
         &self,
         [name, error]: [&'static str; 2],
         lowest: f64,
         no_error: &mut bool,
-    ) -> Result<Option<Reading>, RowFault> {
-        let Some(value) = self.number(name)? else { return Ok(None) };
+    ) -> Result<Option<Seen>, RowFault> {
+        let limit = self.columns.column(name).map_or(Ok(None), |column| column.read_limit(self.cells))?;
+        let value = limit.map_or_else(|| self.number(name), |(value, _)| Ok(Some(value)))?;
+        let Some(value) = value else { return Ok(None) };
         if value < lowest {
             return Err(match lowest {
                 0.0 => RowFault::Negative(name),
@@ -180,7 +202,11 @@ impl ObservedCells<'_> {
             return Err(RowFault::Negative(error));
         }
         *no_error |= stated == Some(0.0);
-        Ok(Some(Reading { value, error: stated.filter(|stated| *stated > 0.0) }))
+        let reading = Reading { value, error: stated.filter(|stated| *stated > 0.0) };
+        Ok(Some(match limit {
+            Some((_, below)) => Seen::Limit(Limit { reading, below }),
+            None => Seen::Reading(reading),
+        }))
     }
 
     fn number(&self, name: &str) -> Result<Option<f64>, RowFault> {

@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::csv_table::{CsvTable, Layout};
+use super::number::NumberStyle;
 use super::rig_observable::{OBSERVABLE_NAMES, RigQuantity};
 use super::{BadRow, DatasetError};
 
@@ -81,7 +82,7 @@ impl RigMeasurements {
     /// # Errors
     /// [`DatasetError`] for a source that cannot be read, has no observable, or names one that is not known.
     pub fn read(file: &str, source: impl Read) -> Result<Self, DatasetError> {
-        let mut table = CsvTable::open(file, source, Layout::default(), |_| false)?;
+        let mut table = CsvTable::open(file, source, Layout::default(), |_| false, |_| false)?;
         let columns = observables(&table)?;
         let is_setting = |name: &str| {
             let (first, rest) = name.split_once('.').unwrap_or((name, ""));
@@ -107,17 +108,18 @@ impl RigMeasurements {
         while let Some(next) = table.next_into(&mut cells)? {
             data.read += 1;
             let row = next.and_then(|line| {
-                let cell = |place: usize| cells.get(place).unwrap_or("").to_owned();
+                let cell = |place: usize| table.style().with_point(cells.get(place).unwrap_or(""));
                 let own = settings.iter().map(|(place, name)| (name.clone(), cell(*place)));
                 let own: Vec<(String, String)> = own.filter(|(_, cell)| !cell.is_empty()).collect();
                 let name = experiment.map(cell).filter(|name| !name.is_empty());
-                let readings = readings(&cells, &columns, line)?;
+                let readings = readings(&cells, &columns, table.style(), line)?;
                 data.add(line, name, own, readings)
             });
             if let Err(bad) = row {
                 data.rejected.push(bad);
             }
         }
+        data.notes.splice(0..0, table.notes());
         if data.read == 0 {
             let reason = "has a header and no rows".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
@@ -208,6 +210,7 @@ fn notes<R: Read>(table: &CsvTable<R>, columns: &[ObservableColumn], read: &[usi
 fn readings(
     cells: &csv::StringRecord,
     columns: &[ObservableColumn],
+    style: NumberStyle,
     line: u64,
 ) -> Result<Vec<RigReading>, BadRow> {
     let mut readings = Vec::new();
@@ -217,7 +220,7 @@ fn readings(
             if text.is_empty() {
                 return Ok(None);
             }
-            let value = text.parse::<f64>().ok().filter(|value| (low..=high).contains(value));
+            let value = style.parse(text).filter(|value| (low..=high).contains(value));
             value.map(Some).ok_or_else(|| BadRow {
                 line,
                 reason: format!("{}{what} = {text}: a number from {low} to {high} is needed", column.name),

@@ -44,6 +44,11 @@ pub(super) enum RowFault {
     Below { name: &'static str, value: f64, least: f64 },
     #[error("{name} is {value}, above {most}; check its unit")]
     Above { name: &'static str, value: f64, most: f64 },
+    #[error(
+        "{name} = {value} m: no length of an impact is above {most} m; state the unit, as `{name} [um]` in the heading or \
+         in a column map"
+    )]
+    TooLong { name: &'static str, value: f64, most: f64 },
     #[error("unterminated quotation mark: a quoted cell contains the following rows")]
     OpenQuote,
     #[error(transparent)]
@@ -65,8 +70,19 @@ pub(super) enum HeaderError {
         "{map} reads {name} from column `{column}`, but a column `{name}` exists too; list it under [ignore] or use it"
     )]
     TwoColumns { map: String, name: &'static str, column: String },
+    #[error("columns `{one}` and `{two}` both mean {name}; rename one")]
+    Ambiguous { name: &'static str, one: String, two: String },
+    #[error("column `{column}`: unknown unit `{unit}`; use one of {known}")]
+    UnknownUnit { column: String, unit: String, known: String },
     #[error("{map} reads {name} from a missing column: {problem}")]
     NoColumn { map: String, name: &'static str, problem: String },
+}
+
+impl RowFault {
+    /// Whether it is hardly that of one row: the numbers of the column have another unit.
+    pub(super) fn is_of_file(&self) -> bool {
+        matches!(self, Self::TooLong { .. })
+    }
 }
 
 /// The columns that determine the velocity.

@@ -72,6 +72,19 @@ pub(super) enum Dimension {
 }
 
 impl Dimension {
+    /// All of them.
+    pub(super) const ALL: [Self; 9] = [
+        Self::Length,
+        Self::Speed,
+        Self::Temperature,
+        Self::Spin,
+        Self::Density,
+        Self::Share,
+        Self::Angle,
+        Self::Count,
+        Self::Text,
+    ];
+
     /// Its units; empty if it has none.
     pub(super) fn units(self) -> &'static [Unit] {
         match self {
@@ -88,8 +101,20 @@ impl Dimension {
 
     /// The unit of this name. The Greek letter mu is accepted for the micro sign, which looks the same.
     pub(super) fn unit(self, name: &str) -> Option<Unit> {
-        let name = name.replace('μ', "µ");
+        let name = name.replace('μ', "µ").replace('³', "3");
         self.units().iter().find(|unit| unit.name == name).copied()
+    }
+
+    /// The unit that a file states: also `-`, which means that there is none, and 1 of a count.
+    pub(super) fn stated_unit(self, name: &str) -> Option<Unit> {
+        let none = matches!(self, Self::Share | Self::Count | Self::Text) && ["-", "1", ""].contains(&name);
+        if none { Some(Unit::SI) } else { self.unit(name) }
+    }
+
+    /// The names of its units.
+    pub(super) fn unit_names(self) -> String {
+        let names: Vec<&str> = self.units().iter().map(|unit| unit.name).collect();
+        if names.is_empty() { "-".to_owned() } else { names.join(", ") }
     }
 }
 

@@ -1,7 +1,7 @@
 //! A choice among explanations on some rows, and the model file that follows from it.
 
 use super::candidate::{Addition, ScoredCandidate};
-use super::constants::{LISTED, NAMED};
+use super::constants::{Effort, LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::explanation::explore;
@@ -24,6 +24,7 @@ pub(super) struct Task<'a> {
     pub text: &'a str,
     /// The columns that group the rows.
     pub groups: &'a [GroupColumn],
+    pub effort: Effort,
     /// Called after each candidate.
     pub progress: &'a (dyn Fn() + Sync),
 }
@@ -126,8 +127,8 @@ impl CauseChoice {
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
         let grounds = grounds(data, task.groups, task.text, evidence);
-        let search = ImpactSearch::new(&grounds, evidence, task.progress);
-        let visited = explore(&search, search.starts());
+        let search = ImpactSearch::new(&grounds, evidence, task.effort.refitted, task.progress);
+        let visited = explore(&search, search.starts(), task.effort.expanded);
         let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
         let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();

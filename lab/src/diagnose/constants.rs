@@ -18,9 +18,20 @@ pub(super) const NEARLY_BEST: f64 = 0.75;
 pub(super) const LEAST_CERTAINTY: f64 = 0.5;
 /// p-value at which a model is refuted [1].
 pub(super) const REFUTED: f64 = 0.01;
-/// Explanations of each round of which all parameters are fitted together.
-pub(super) const REFITTED: usize = 4;
 /// Probability from which on a cause is named [1].
 pub(super) const NAMED: f64 = 0.8;
 /// Probability of the listed explanations together [1].
 pub(super) const LISTED: f64 = 0.95;
+
+/// How far the search among explanations goes.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Effort {
+    /// Largest number of explanations that are expanded.
+    pub expanded: usize,
+    /// Explanations of each expansion of which all parameters are fitted together.
+    pub refitted: usize,
+}
+
+/// Of the choice that is told, and of those that only measure the gain.
+pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3 };
+pub(super) const QUICK: Effort = Effort { expanded: 3, refitted: 1 };

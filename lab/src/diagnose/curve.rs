@@ -7,7 +7,7 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::smooth::{Basis, Entry, Smoothed, products, ridge, sum};
+use super::smooth::{Basis, Entry, Smoothed, product, ridge, sum};
 
 /// Rounds of the iteratively reweighted fit of capture.
 const ROUNDS: usize = 5;
@@ -34,9 +34,9 @@ impl ColumnCurveForm {
     pub fn entry(&self, data: &DataSplit, row: usize) -> Entry {
         match self.sides.as_slice() {
             [] => vec![(0, 1.0)],
-            [(column, basis)] => basis.entry(data.values(*column), row),
+            [(column, basis)] => side(data, *column, basis, row),
             [(one, first), (two, second), ..] => {
-                products(&[(first, data.values(*one)), (second, data.values(*two))], row)
+                product(&side(data, *one, first, row), &side(data, *two, second, row), second.len())
             }
         }
     }
@@ -104,6 +104,14 @@ impl ColumnCurveForm {
         }
         let Smoothed { heights, freedom } = fitted?;
         Some(ColumnCurve { form: self, heights, freedom })
+    }
+}
+
+/// The basis functions of a column at a row; where the row lacks an input, their mean over what the file shows of it.
+fn side(data: &DataSplit, column: usize, basis: &Basis, row: usize) -> Entry {
+    match data.shown_instead(column, row) {
+        [] => basis.entry(data.values(column), row),
+        shown => basis.mean_entry(shown),
     }
 }
 

@@ -8,6 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::groups::{GroupColumn, units};
 use super::input_error::corrected;
 use super::likelihood::{GROSS_SHARE, Offset};
+use super::missing_inputs::MissingInputs;
 use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
@@ -120,6 +121,8 @@ pub(super) struct DataSplit {
     pub base: Model,
     /// The rows; inputs with stated errors have their expected values.
     pub rows: Arc<[Measurement]>,
+    /// What the file shows of inputs that some rows lack.
+    pub missing: Arc<MissingInputs>,
     /// All columns that vary.
     pub covariates: Arc<[Covariate]>,
     /// What is known of the noise of each row.
@@ -164,11 +167,13 @@ impl DataSplit {
             offset.visible_from = if least > 0.0 { least } else { f64::NEG_INFINITY };
         }
         let (units, unit_count) = units(data);
+        let missing = MissingInputs::of(&rows);
         let excluded: Vec<&str> = groups.iter().map(|groups| groups.name.as_str()).collect();
         let all: Vec<usize> = (0..rows.len()).collect();
         let whole = Self {
             base: base.clone(),
-            covariates: covariates(base, data, &excluded).into(),
+            covariates: covariates(base, data, &missing, &excluded).into(),
+            missing: missing.into(),
             rows: rows.into(),
             noise: noise.into(),
             units,
@@ -220,7 +225,8 @@ impl DataSplit {
 
     /// Other rows under the same base model, none of them fitted.
     pub fn with_rows(&self, rows: Vec<Measurement>, covariates: Vec<Covariate>) -> Self {
-        Self { covariates: covariates.into(), ..Self::bare(&self.base, &rows, COARSE_DRAWS) }
+        let missing = self.missing.clone();
+        Self { covariates: covariates.into(), missing, ..Self::bare(&self.base, &rows, COARSE_DRAWS) }
     }
 
     /// Rows without columns, none of them fitted, for the errors of a finished model.
@@ -228,6 +234,7 @@ impl DataSplit {
         Self {
             base: base.clone(),
             rows: rows.into(),
+            missing: MissingInputs::of(rows).into(),
             covariates: Arc::new([]),
             noise: vec![Offset::default(); rows.len()].into(),
             units: (0..rows.len()).collect(),
@@ -263,6 +270,14 @@ impl DataSplit {
         self.covariates.get(covariate).map_or(&NONE, |covariate| &covariate.values)
     }
 
+    /// The values that stand for a blank cell of an input; none for other cells.
+    pub fn shown_instead(&self, covariate: usize, row: usize) -> &[f64] {
+        let blank =
+            self.covariates.get(covariate).filter(|covariate| covariate.input && covariate.blank[row]);
+        let input = blank.and_then(|blank| INPUTS.iter().position(|input| input.name == blank.name));
+        input.map_or(&[], |input| self.missing.values(input))
+    }
+
     /// The covariate of this name.
     pub fn covariate(&self, name: &str) -> Option<&Covariate> {
         self.covariates.iter().find(|covariate| covariate.name == name)
@@ -278,10 +293,12 @@ impl DataSplit {
 }
 
 /// The inputs that the file states and its further columns, if they vary; without those that group the rows.
-fn covariates(base: &Model, data: &Measurements, groups: &[&str]) -> Vec<Covariate> {
-    let given = INPUTS.iter().filter(|input| data.given.contains(&input.name));
-    let inputs = given.map(|input| {
-        let numbers = data.rows.iter().map(|row| (input.value)(&row.impact)).collect();
+fn covariates(base: &Model, data: &Measurements, missing: &MissingInputs, groups: &[&str]) -> Vec<Covariate> {
+    let given = INPUTS.iter().enumerate().filter(|(_, input)| data.given.contains(&input.name));
+    let inputs = given.map(|(place, input)| {
+        let lacks = |row: &Measurement| !row.stated[place] && !missing.values(place).is_empty();
+        let cell = |row: &Measurement| if lacks(row) { f64::NAN } else { (input.value)(&row.impact) };
+        let numbers = data.rows.iter().map(cell).collect();
         Covariate::new(input.name, input.unit, ColumnValues::Numbers(numbers), true)
     });
     let declared = data.given_extra.iter().filter_map(|&place| {

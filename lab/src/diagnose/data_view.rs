@@ -117,12 +117,13 @@ struct Copies {
 
 impl Copies {
     /// Adds copies of the rows nearest to a value of the column, each given with its distance, the nearest first.
-    fn add(&mut self, data: &DataSplit, near: &[(f64, usize)], input: Option<&Input>, value: f64) {
+    fn add(&mut self, data: &DataSplit, near: &[(f64, usize)], input: Option<(usize, &Input)>, value: f64) {
         let farthest = near.last().map_or(0.0, |(distance, _)| *distance).max(f64::MIN_POSITIVE);
         for &(distance, row) in near {
             let mut copy = data.rows[row];
-            if let Some(input) = input {
+            if let Some((place, input)) = input {
                 (input.set)(&mut copy.impact, value);
+                copy.stated[place] = true;
             }
             if data.base.check(copy.wall, &copy.impact).is_ok() {
                 self.copies.push(copy);
@@ -144,7 +145,7 @@ fn curve(
 ) -> Vec<[f64; 3]> {
     let data = models[0].data;
     let ColumnValues::Numbers(numbers) = &main.values else { return Vec::new() };
-    let mut seen: Vec<usize> = rows.iter().copied().filter(|&row| numbers[row].is_finite()).collect();
+    let mut seen: Vec<usize> = rows.iter().copied().filter(|&row| main.cell(row).is_finite()).collect();
     seen.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]));
     let seen: Vec<usize> =
         seen.iter().copied().step_by(seen.len().div_ceil(MOST_CURVE_ROWS).max(1)).collect();
@@ -156,7 +157,7 @@ fn curve(
 
     let middles = (0..CURVE_POINTS)
         .map(|step| place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64);
-    let input = INPUTS.iter().find(|input| main.input && input.name == main.name);
+    let input = INPUTS.iter().enumerate().find(|(_, input)| main.input && input.name == main.name);
     let Copies { copies, originals, values, weights } = {
         let mut all = Copies::default();
         for middle in middles {

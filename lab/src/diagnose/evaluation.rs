@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::data_split::DataSplit;
 use super::forecast::{Forecast, Prediction};
 use super::likelihood::{
-    Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, mean, reading_noise, regular, score,
+    Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, censored, mean, reading_noise, regular, score,
 };
 use super::observable::Observable;
 use super::shared_error::{GroupSums, SharedErrors};
 use super::smooth::WeightedResidual;
-use crate::dataset::{Measurement, Reading};
+use crate::dataset::{Limit, Measurement, Reading};
 use nearwall::model::Model;
 
 /// Largest number of steps of the scatter's estimate.
@@ -78,7 +78,7 @@ impl<'a> Evaluation<'a> {
         scatter: Scatter,
     ) -> Self {
         let rows = rows.into();
-        let forecast = Arc::new(Forecast::new(model, &data.rows, &rows, data.draws));
+        let forecast = Arc::new(Forecast::of_data(model, data, &rows));
         let shared = Arc::new(SharedErrors::default());
         Self { data, rows, forecast, offsets: offsets.into(), scatter, shared }
     }
@@ -166,7 +166,7 @@ impl<'a> Evaluation<'a> {
         self.rows.iter().enumerate().map(one)
     }
 
-    /// The readings of a row about their predicted means.
+    /// The readings of a row about their predicted means; of a censored one the step to the summit of its likelihood.
     fn row_residuals(
         &self,
         row: &Measurement,
@@ -179,7 +179,13 @@ impl<'a> Evaluation<'a> {
             let value = reading.value - mean.restitution[which] - shift;
             Some(Residual { which, value, weight: regular(value, width, offset.gross) / (width * width) })
         };
-        [row.e_n, row.e_t].into_iter().enumerate().filter_map(one)
+        let limit = |(which, limit): (usize, Option<Limit>)| {
+            let seen = censored(self.scatter[which], offset, which, row, &limit?, mean);
+            let weight = seen.information;
+            (weight > 0.0).then(|| Residual { which, value: seen.slope / weight, weight })
+        };
+        let readings = [row.e_n, row.e_t].into_iter().enumerate().filter_map(one);
+        readings.chain(row.limits.into_iter().enumerate().filter_map(limit))
     }
 
     /// Log score of every row [nats].
@@ -240,6 +246,9 @@ impl<'a> Evaluation<'a> {
                 let most = STEEPEST * row.impacts;
                 slope.capture = (information * (captured - mean.capture)).clamp(-most, most);
                 slope.information[2] = information;
+            } else if row.is_unstated_rebound() {
+                // It speaks against captures, but is no measured share of them.
+                slope.capture = -1.0 / (1.0 - mean.capture).max(1.0 / STEEPEST);
             }
             for Residual { which, value, weight } in self.row_residuals(row, &mean, &offset) {
                 slope.restitution[which] = weight * value;

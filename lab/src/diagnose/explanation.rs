@@ -14,8 +14,6 @@
 
 /// Ratio of evidence beyond which an explanation is not pursued, as a logarithm [nats]: 20 to 1.
 const WINDOW: f64 = 3.0;
-/// Largest number of explanations that are expanded.
-const MOST_EXPANDED: usize = 8;
 
 /// An explanation with everything fitted.
 #[derive(Debug, Clone)]
@@ -87,16 +85,18 @@ pub(super) trait Explained {
     ) -> Vec<Explanation<Self::Fitted>>;
 }
 
-/// All explanations that the search visits from `starts`, the one with the largest evidence first.
+/// All explanations that the search visits from `starts` with at most `most` expansions, the one with the
+/// largest evidence first.
 pub(super) fn explore<K: Explained>(
     kind: &K,
     starts: Vec<Explanation<K::Fitted>>,
+    most: usize,
 ) -> Vec<Explanation<K::Fitted>> {
     let evidence = kind.evidence();
     let mut visited = Vec::new();
     starts.into_iter().for_each(|start| add(&mut visited, start, evidence));
     let mut expanded: Vec<Vec<String>> = Vec::new();
-    while expanded.len() < MOST_EXPANDED
+    while expanded.len() < most
         && let Some(next) = next(&visited, &expanded, evidence)
     {
         expanded.push(next.keys.clone());
@@ -201,7 +201,7 @@ mod tests {
 
     #[test]
     fn what_gains_most_alone_is_left_out_later() {
-        let found = explore(&Planted, vec![explained(Vec::new())]);
+        let found = explore(&Planted, vec![explained(Vec::new())], 8);
         assert_eq!(found[0].keys, ["a", "b"]);
     }
 }

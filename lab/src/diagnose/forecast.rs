@@ -2,6 +2,8 @@
 
 use rayon::prelude::*;
 
+use super::data_split::DataSplit;
+use super::missing_inputs::MissingInputs;
 use crate::dataset::Measurement;
 use nearwall::model::{DrawLattice, Model, RotatedLattice};
 
@@ -17,13 +19,15 @@ pub(super) struct Prediction {
     /// Half the distance to the neighbouring draws in `e_n` and `e_t` [1]: values between two draws are as likely as
     /// the draws.
     pub reach: [f64; 2],
+    /// The choice of the row's missing inputs that it belongs to.
+    pub filling: usize,
 }
 
 /// The predictions of several rows.
 #[derive(Debug, Clone)]
 pub(super) struct Forecast {
-    /// Predictions a row.
-    draws: usize,
+    /// Where the predictions of each row end.
+    ends: Vec<usize>,
     predictions: Vec<Prediction>,
 }
 
@@ -35,33 +39,60 @@ const PARALLEL: usize = 20_000;
 impl Forecast {
     /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
     pub fn new(model: &Model, all: &[Measurement], rows: &[usize], draws: usize) -> Self {
+        Self::filled(model, all, rows, draws, &MissingInputs::default())
+    }
+
+    /// Predicts rows of the data: for each choice of the inputs that a row lacks.
+    pub fn of_data(model: &Model, data: &DataSplit, rows: &[usize]) -> Self {
+        Self::filled(model, &data.rows, rows, data.draws, &data.missing)
+    }
+
+    fn filled(
+        model: &Model,
+        all: &[Measurement],
+        rows: &[usize],
+        draws: usize,
+        missing: &MissingInputs,
+    ) -> Self {
         let place = rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact));
         let lattice = DrawLattice::new(model, place, draws);
-        let draws = lattice.count();
         let predict = |&index: &usize| {
             let rotated = lattice.rotated(index as u64);
-            let predict = |draw| predict(model, &all[index], &rotated, draw);
-            let mut predictions: Vec<Prediction> = (0..draws).map(predict).collect();
+            let mut predictions = Vec::new();
+            for filling in 0..missing.fillings(&all[index]) {
+                let row = missing.filled(&all[index], filling);
+                let one = |draw| Prediction { filling, ..predict(model, &row, &rotated, draw) };
+                predictions.extend((0..lattice.count()).map(one));
+            }
             set_reach(&mut predictions);
             predictions
         };
-        let predictions = if rows.len() * draws > PARALLEL {
-            rows.par_iter().flat_map_iter(predict).collect()
+        let of_rows: Vec<Vec<Prediction>> = if rows.len() * lattice.count() > PARALLEL {
+            rows.par_iter().map(predict).collect()
         } else {
-            rows.iter().flat_map(predict).collect()
+            rows.iter().map(predict).collect()
         };
-        Self { draws, predictions }
+        Self::joined(of_rows.iter().map(Vec::as_slice))
+    }
+
+    fn joined<'a>(of_rows: impl Iterator<Item = &'a [Prediction]>) -> Self {
+        let (mut ends, mut predictions) = (Vec::new(), Vec::new());
+        for own in of_rows {
+            predictions.extend_from_slice(own);
+            ends.push(predictions.len());
+        }
+        Self { ends, predictions }
     }
 
     /// The predictions of the rows at these places.
     pub fn select(&self, places: &[usize]) -> Self {
-        let predictions = places.iter().flat_map(|&place| self.of(place)).copied().collect();
-        Self { draws: self.draws, predictions }
+        Self::joined(places.iter().map(|&place| self.of(place)))
     }
 
     /// The predictions of the row at this place in the list of rows.
     pub fn of(&self, place: usize) -> &[Prediction] {
-        &self.predictions[place * self.draws..(place + 1) * self.draws]
+        let start = if place == 0 { 0 } else { self.ends[place - 1] };
+        &self.predictions[start..self.ends[place]]
     }
 }
 
@@ -95,5 +126,5 @@ fn predict(model: &Model, row: &Measurement, lattice: &RotatedLattice<'_>, draw:
         // Unreachable: rows that the base model refuses were removed, and no effect narrows a property's range.
         Err(_) => ([0.0; 2], 0.5),
     };
-    Prediction { restitution, capture, weight: lattice.weight(draw), reach: [0.0; 2] }
+    Prediction { restitution, capture, weight: lattice.weight(draw), reach: [0.0; 2], filling: 0 }
 }

@@ -1,6 +1,8 @@
 //! The gain of the extended model, measured by running its file on rows that no choice and no fit
 //! saw; and the rows of the figures.
 
+use std::sync::Arc;
+
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 use statrs::distribution::{ContinuousCDF, StudentsT};
@@ -10,6 +12,7 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
 use super::likelihood::{Mean, Offset, Scatter};
+use super::missing_inputs::MissingInputs;
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
 use crate::dataset::{ColumnValues, Measurement, Measurements, Unselected};
@@ -128,7 +131,8 @@ struct PredictedRows {
 impl PredictedRows {
     fn new(file: &ModelFile<'_>, data: &Measurements, rows: &[usize]) -> Self {
         let some = rows_for(file.model, data, rows);
-        let split = DataSplit::bare(file.model, &some, ROW_DRAWS);
+        let mut split = DataSplit::bare(file.model, &some, ROW_DRAWS);
+        split.missing = Arc::new(MissingInputs::of(&data.rows));
         let offsets = vec![Offset::default(); some.len()];
         let evaluation = Evaluation::new(&split, file.model, split.all(), offsets, file.scatter);
         let squares = Observable::ALL.map(|observable| {

@@ -66,6 +66,10 @@ fn replicates(rows: &Evaluation<'_>, parameters: f64) -> Option<FitTest> {
         if one.impacts > 1.0 {
             return None;
         }
+        // Inputs that are not known do not repeat.
+        if rows.data.missing.lacks(one) {
+            continue;
+        }
         let key = INPUTS.iter().map(|input| (input.value)(&one.impact).to_bits()).collect();
         cells.entry(key).or_default().push(measured - predicted);
     }

@@ -4,6 +4,7 @@ use super::data_split::DataSplit;
 use super::explanation::Evidence;
 use super::groups::GroupColumn;
 use super::hypothesis::Hypothesis;
+use super::missing_inputs::MissingInputs;
 use super::reading::{OtherReading, readings};
 use super::skew::skewed;
 use super::slip::slips;
@@ -89,7 +90,8 @@ fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
         slope.push((other.change)(&mut rows[row], &mut noise[row], value)?);
         base.check(rows[row].wall, &rows[row].impact).ok()?;
     }
-    let changed = DataSplit { base, rows: rows.into(), noise: noise.into(), ..data.clone() };
+    let missing = MissingInputs::of(&rows).into();
+    let changed = DataSplit { base, rows: rows.into(), noise: noise.into(), missing, ..data.clone() };
     Some(Ground {
         key: other.id.clone(),
         question: Some((other.question)(value)),

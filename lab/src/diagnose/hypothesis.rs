@@ -138,7 +138,7 @@ impl<'a> Hypothesis<'a> {
 
     /// The predictions of the rows of the search.
     pub fn forecast(&self) -> Forecast {
-        Forecast::new(&self.model(), &self.data.rows, &self.data.search, self.data.draws)
+        Forecast::of_data(&self.model(), self.data, &self.data.search)
     }
 
     /// p-value of the discrepancy; `None` without one.

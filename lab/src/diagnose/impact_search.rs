@@ -9,7 +9,6 @@ use std::collections::BTreeMap;
 
 use super::candidate::{Addition, Class, ScoredCandidate};
 use super::candidate_list::candidates;
-use super::constants::REFITTED;
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
@@ -35,6 +34,8 @@ pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
 pub(super) struct ImpactSearch<'a> {
     grounds: &'a [Ground],
     evidence: Evidence,
+    /// Explanations of each expansion that are fitted together.
+    refitted: usize,
     progress: &'a (dyn Fn() + Sync),
 }
 
@@ -55,8 +56,13 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
 }
 
 impl<'a> ImpactSearch<'a> {
-    pub fn new(grounds: &'a [Ground], evidence: Evidence, progress: &'a (dyn Fn() + Sync)) -> Self {
-        Self { grounds, evidence, progress }
+    pub fn new(
+        grounds: &'a [Ground],
+        evidence: Evidence,
+        refitted: usize,
+        progress: &'a (dyn Fn() + Sync),
+    ) -> Self {
+        Self { grounds, evidence, refitted, progress }
     }
 
     /// The base model on every ground that is no noise.
@@ -168,7 +174,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
         all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
-        let rest = all.split_off(all.len().min(REFITTED));
+        let rest = all.split_off(all.len().min(self.refitted));
         let refitted = all.into_iter().map(|new| self.refitted(of, new));
         let mut found: Vec<_> = refitted.chain(rest).collect();
         found.extend(self.grouped(of));

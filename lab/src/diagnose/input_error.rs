@@ -26,8 +26,10 @@ const SAME_SHARE: f64 = 1e-3;
 pub(super) fn corrected(base: &Model, data: &Measurements) -> (Vec<Measurement>, Vec<Offset>) {
     let mut rows = data.rows.clone();
     let mut noise = vec![Offset::default(); rows.len()];
-    for input in &INPUTS {
-        let errors: Vec<f64> = data.rows.iter().map(|row| row.input_errors.of(input.name)).collect();
+    for (place, input) in INPUTS.iter().enumerate() {
+        // The error of an input that is missing says nothing.
+        let error = |row: &Measurement| if row.stated[place] { row.input_errors.of(input.name) } else { 0.0 };
+        let errors: Vec<f64> = data.rows.iter().map(error).collect();
         if errors.iter().any(|error| *error > 0.0) {
             correct(base, input, &errors, &mut rows, &mut noise);
         }

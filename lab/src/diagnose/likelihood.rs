@@ -3,12 +3,15 @@
 //! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a
 //! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.4`, where the second
 //! term is uniform over a width of 2.5. So a few outliers cannot decide for or against a cause. A
-//! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995. Under a stochastic
-//! model the probability of a row is the mean over the draws. The scatter of an average of `n`
-//! impacts is `s/sqrt(n)`, or `s` combined with its stated standard error.
+//! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995; a single impact with
+//! `e_n` above 0 is a rebound whether or not an outcome is stated. Under a stochastic model, and
+//! where a row does not state all inputs, the probability of a row is the mean over its predictions.
+//! The scatter of an average of `n` impacts is `s/sqrt(n)`, or `s` combined with its stated standard
+//! error. A value known to be below a limit has the probability of the normal distribution below it
+//! instead of a density (Tobin 1958), and of a gross error one half.
 
 use super::forecast::Prediction;
-use crate::dataset::{Measurement, Reading};
+use crate::dataset::{Limit, Measurement, Reading};
 
 /// Expected share of gross errors among many readings [1].
 pub(super) const GROSS_SHARE: f64 = 0.02;
@@ -16,6 +19,8 @@ pub(super) const GROSS_SHARE: f64 = 0.02;
 pub(super) const GROSS_DENSITY: f64 = 0.4;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
 const NEGLIGIBLE_DISTANCE: f64 = 8.0;
+/// A prediction is at most this many standard deviations beyond a limit: the tail's probability is still a number.
+const FARTHEST_LIMIT: f64 = 30.0;
 /// No outcome is predicted with more certainty than one minus this.
 const UNCERTAINTY: f64 = 0.005;
 /// Largest offset of the log odds of capture.
@@ -72,6 +77,48 @@ pub(super) struct Mean {
 /// The measured ones of `e_n` (0) and `e_t` (1).
 fn readings(row: &Measurement) -> impl Iterator<Item = (usize, &Reading)> {
     [&row.e_n, &row.e_t].into_iter().enumerate().filter_map(|(which, one)| Some((which, one.as_ref()?)))
+}
+
+/// The censored ones of `e_n` (0) and `e_t` (1).
+fn limits(row: &Measurement) -> impl Iterator<Item = (usize, &Limit)> {
+    row.limits.iter().enumerate().filter_map(|(which, one)| Some((which, one.as_ref()?)))
+}
+
+/// A censored value under a normal distribution about its prediction.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Censored {
+    /// Probability that the value is beyond the limit as stated, gross errors included [1].
+    pub probability: f64,
+    /// Probability that it is no gross error [1].
+    regular: f64,
+    /// Slope of the log probability by the prediction [1], and minus its second derivative [1].
+    pub slope: f64,
+    pub information: f64,
+    /// Expected square deviation of the value from the prediction [1].
+    square: f64,
+}
+
+impl Censored {
+    /// Of a value expected at `expected` with this standard deviation; of gross errors a share `gross` is expected.
+    pub fn new(limit: &Limit, expected: f64, deviation: f64, gross: f64) -> Self {
+        let sign = if limit.below { 1.0 } else { -1.0 };
+        let z = sign * (limit.reading.value - expected) / deviation;
+        let bounded = z.max(-FARTHEST_LIMIT);
+        let tail = 0.5 * statrs::function::erf::erfc(-bounded / std::f64::consts::SQRT_2);
+        // The ratio of density and tail; beyond the farthest limit it grows with the distance.
+        let ratio = (-0.5 * bounded * bounded).exp() / std::f64::consts::TAU.sqrt() / tail + (bounded - z);
+        let beyond = 0.5 * (bounded * bounded - z * z);
+        let tail = tail * beyond.exp();
+        let probability = ((1.0 - gross) * tail + 0.5 * gross).max(f64::MIN_POSITIVE);
+        let regular = if gross > 0.0 { (1.0 - gross) * tail / probability } else { 1.0 };
+        Self {
+            probability,
+            regular,
+            slope: -sign * regular * ratio / deviation,
+            information: regular * (ratio * (z + ratio)).clamp(0.0, 1.0) / (deviation * deviation),
+            square: deviation * deviation * (1.0 - z * ratio),
+        }
+    }
 }
 
 /// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
@@ -218,6 +265,19 @@ pub(super) fn reading_noise(
     (width, hidden.map_or(0.0, |hidden| width * hidden.shift))
 }
 
+/// A censored value under the predicted mean.
+pub(super) fn censored(
+    scatter: f64,
+    offset: &Offset,
+    which: usize,
+    row: &Measurement,
+    limit: &Limit,
+    mean: &Mean,
+) -> Censored {
+    let width = deviation(scatter, offset, which, &limit.reading, row.rebounds, mean.variance[which]);
+    Censored::new(limit, mean.restitution[which], width, offset.gross)
+}
+
 /// Log score of one row [nats].
 pub(super) fn score(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
     if row.impacts > 1.0 {
@@ -227,25 +287,49 @@ pub(super) fn score(row: &Measurement, predictions: &[Prediction], offset: &Offs
     }
 }
 
+/// Log density of the readings and limits of a row about the expected ones; `variance` is that of the prediction.
+fn log_likelihood(
+    row: &Measurement,
+    expected: [f64; 2],
+    variance: [f64; 2],
+    offset: &Offset,
+    scatter: Scatter,
+) -> f64 {
+    let width = |which: usize, reading: &Reading| {
+        deviation(scatter[which], offset, which, reading, row.rebounds, variance[which])
+    };
+    let readings = readings(row).map(|(which, reading)| {
+        let expected = expected[which];
+        let residual = reading.value - expected;
+        visible_log_density(residual, expected, width(which, reading), &limited(offset, which))
+    });
+    let limits = limits(row).map(|(which, limit)| {
+        Censored::new(limit, expected[which], width(which, &limit.reading), offset.gross).probability.ln()
+    });
+    readings.sum::<f64>() + limits.sum::<f64>()
+}
+
+/// `e_n` and `e_t` of a prediction with the offset.
+fn shifted(one: &Prediction, offset: &Offset) -> [f64; 2] {
+    [0, 1].map(|which| one.restitution[which] + offset.restitution[which])
+}
+
 fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
+    let captured = row.captured.is_some_and(|share| share > 0.5);
+    let known = row.captured.is_some() || row.is_unstated_rebound();
     if let [one] = predictions {
         let p = capture(one, offset);
-        if row.captured.is_some_and(|share| share > 0.5) {
+        if captured {
             return p.ln();
         }
-        let known = if row.captured.is_some() { (1.0 - p).ln() } else { 0.0 };
-        let readings = readings(row).map(|(which, reading)| {
-            let width = deviation(scatter[which], offset, which, reading, 1.0, 0.0);
-            let expected = one.restitution[which] + offset.restitution[which];
-            visible_log_density(reading.value - expected, expected, width, &limited(offset, which))
-        });
-        return known + readings.sum::<f64>();
+        let known = if known { (1.0 - p).ln() } else { 0.0 };
+        return known + log_likelihood(row, shifted(one, offset), [0.0; 2], offset, scatter);
     }
     let (mut sum, mut rebounds, mut all) = (0.0, 0.0, 0.0);
     for one in predictions {
         let p = capture(one, offset);
         all += one.weight;
-        if row.captured.is_some_and(|share| share > 0.5) {
+        if captured {
             sum += p * one.weight;
             continue;
         }
@@ -255,25 +339,36 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
             let expected = one.restitution[which] + offset.restitution[which];
             density *= visible_density(reading.value - expected, expected, width, &limited(offset, which));
         }
+        for (which, limit) in limits(row) {
+            let reach = one.reach[which].powi(2);
+            let width = deviation(scatter[which], offset, which, &limit.reading, 1.0, reach);
+            density *= Censored::new(limit, shifted(one, offset)[which], width, offset.gross).probability;
+        }
         sum += (1.0 - p) * one.weight * density;
         rebounds += (1.0 - p) * one.weight;
     }
     let sum = sum.max(f64::MIN_POSITIVE);
-    // Where captures are not recorded, the row is a sample of the rebounds.
-    if row.captured.is_some() { (sum / all).ln() } else { (sum / rebounds).ln() }
+    // Where nothing tells whether the particle was captured, the row is a sample of the rebounds.
+    if known { (sum / all).ln() } else { (sum / rebounds).ln() }
 }
 
+/// The predictions of a row for each choice of its missing inputs.
+fn by_filling(predictions: &[Prediction]) -> impl Iterator<Item = &[Prediction]> {
+    predictions.chunk_by(|one, other| one.filling == other.filling)
+}
+
+/// The impacts of an average have the same inputs, known or not.
 fn score_average(row: &Measurement, predictions: &[Prediction], offset: &Offset, scatter: Scatter) -> f64 {
-    let mean = mean(predictions, offset);
-    let mut score = row.captured.map_or(0.0, |share| {
-        row.impacts * (share * mean.capture.ln() + (1.0 - share) * (1.0 - mean.capture).ln())
-    });
-    for (which, reading) in readings(row) {
-        let width = deviation(scatter[which], offset, which, reading, row.rebounds, mean.variance[which]);
-        let expected = mean.restitution[which];
-        score += visible_log_density(reading.value - expected, expected, width, &limited(offset, which));
-    }
-    score
+    let one = |predictions: &[Prediction]| {
+        let mean = mean(predictions, offset);
+        let captures = row.captured.map_or(0.0, |share| {
+            row.impacts * (share * mean.capture.ln() + (1.0 - share) * (1.0 - mean.capture).ln())
+        });
+        captures + log_likelihood(row, mean.restitution, mean.variance, offset, scatter)
+    };
+    let scores: Vec<f64> = by_filling(predictions).map(one).collect();
+    let most = scores.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    most + (scores.iter().map(|score| (score - most).exp()).sum::<f64>() / scores.len() as f64).ln()
 }
 
 /// Adds a row's squared residuals and their weights, of `e_n` and `e_t`, for one step of expectation–maximisation.
@@ -287,29 +382,28 @@ pub(super) fn add_squares(
     if row.captured.is_some_and(|share| share >= 1.0) {
         return;
     }
-    let average;
-    let (predictions, variance) = if row.impacts <= 1.0 || predictions.len() == 1 {
-        (predictions, [0.0; 2])
+    let averages: Vec<Prediction>;
+    let predictions = if row.impacts <= 1.0 || predictions.len() == 1 {
+        predictions
     } else {
-        let mean = mean(predictions, offset);
-        average = [Prediction {
-            restitution: [0, 1].map(|which| mean.restitution[which] - offset.restitution[which]),
-            capture: mean.capture,
-            weight: 1.0,
-            reach: [0.0; 2],
-        }];
-        (&average[..], mean.variance)
+        let average = |draws: &[Prediction]| {
+            let mean = mean(draws, offset);
+            let restitution = [0, 1].map(|which| mean.restitution[which] - offset.restitution[which]);
+            let reach = mean.variance.map(f64::sqrt);
+            Prediction { restitution, capture: mean.capture, weight: 1.0, reach, filling: 0 }
+        };
+        averages = by_filling(predictions).map(average).collect();
+        &averages
     };
     // The weight of a draw is the likelihood of the row under it, over that of all draws.
     let (mut own, mut total) = ([[0.0; 2]; 2], 0.0);
     for one in predictions {
         let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
-        for (which, reading) in readings(row) {
+        for (which, seen) in seen(row) {
             let expected = one.restitution[which] + offset.restitution[which];
-            let variance = variance[which] + one.reach[which].powi(2);
-            let (density, term) =
-                own_square(reading, expected, variance, row.rebounds, offset, which, scatter);
+            let variance = one.reach[which].powi(2);
+            let (density, term) = own_square(seen, expected, variance, row.rebounds, offset, which, scatter);
             likelihood *= density;
             terms[which] = term;
         }
@@ -325,9 +419,15 @@ pub(super) fn add_squares(
     }
 }
 
-/// Density of a reading, and the square of its residual that is due to the scatter with its weight.
+/// What was seen of `e_n` (0) and `e_t` (1): a reading, and the limit if it is one.
+fn seen(row: &Measurement) -> impl Iterator<Item = (usize, (&Reading, Option<&Limit>))> {
+    let readings = readings(row).map(|(which, reading)| (which, (reading, None)));
+    readings.chain(limits(row).map(|(which, limit)| (which, (&limit.reading, Some(limit)))))
+}
+
+/// Density of what was seen, and the square of its residual that is due to the scatter with its weight.
 fn own_square(
-    reading: &Reading,
+    (reading, limit): (&Reading, Option<&Limit>),
     expected: f64,
     variance: f64,
     rebounds: f64,
@@ -345,8 +445,15 @@ fn own_square(
     let foreign = foreign + offset.variance[which];
     // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
     let own = (scatter[which] * offset.spread).powi(2) / count;
-    let regular = regular(residual, width, offset.gross);
-    let weight = regular * (own / (own + foreign)).powi(2);
+    let share = (own / (own + foreign)).powi(2);
+    let own_square = |square: f64, rows: f64| (square - rows * foreign) * count / offset.spread.powi(2);
+    if let Some(limit) = limit {
+        let censored = Censored::new(limit, expected, width, offset.gross);
+        let weight = censored.regular * share;
+        let square = own_square(censored.square + offset.uncertainty[which], 1.0);
+        return (censored.probability, [weight * square, weight]);
+    }
+    let weight = regular(residual, width, offset.gross) * share;
     let limited = limited(offset, which);
     let seen = residual * residual + offset.uncertainty[which];
     let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
@@ -356,6 +463,97 @@ fn own_square(
             (seen + unseen * hidden.square * width * width, 1.0 + unseen)
         }
     };
-    let own_square = (square - rows * foreign) * count / offset.spread.powi(2);
-    (visible_density(residual, expected, width, &limited), [weight * own_square, weight * rows])
+    let density = visible_density(residual, expected, width, &limited);
+    (density, [weight * own_square(square, rows), weight * rows])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use statrs::distribution::{Continuous, ContinuousCDF, Normal};
+
+    const EXACT: Offset = Offset {
+        restitution: [0.0; 2],
+        capture: 0.0,
+        spread: 1.0,
+        variance: [0.0; 2],
+        uncertainty: [0.0; 2],
+        visible_from: f64::NEG_INFINITY,
+        gross: 0.0,
+    };
+
+    fn prediction(e_n: f64, capture: f64, filling: usize) -> Prediction {
+        Prediction { restitution: [e_n, 0.7], capture, weight: 1.0, reach: [0.0; 2], filling }
+    }
+
+    fn row(e_n: Option<f64>, captured: Option<f64>, impacts: f64) -> Measurement {
+        let e_n = e_n.map(|value| Reading { value, error: None });
+        Measurement { e_n, captured, impacts, rebounds: impacts, ..Measurement::default() }
+    }
+
+    /// Tails, their means and mean squares of a normal distribution by sums over its density.
+    #[test]
+    fn a_censored_value_has_the_probability_and_the_moments_of_the_tail() {
+        for (limit, expected, below) in
+            [(0.2, 0.25, true), (0.2, 0.7, true), (0.9, 0.7, false), (0.9, 1.1, false)]
+        {
+            let (law, step) = (Normal::new(expected, 0.1).unwrap(), 1e-5);
+            let side = if below { -1.0 } else { 1.0 };
+            let moments = (0..200_000).fold([0.0; 3], |sums, place| {
+                let value = limit + side * (f64::from(place) + 0.5) * step;
+                let (share, from) = (law.pdf(value) * step, value - expected);
+                [sums[0] + share, sums[1] + share * from, sums[2] + share * from * from]
+            });
+            let stated = Limit { reading: Reading { value: limit, error: None }, below };
+            let found = Censored::new(&stated, expected, 0.1, 0.0);
+            assert!(
+                (found.probability / moments[0] - 1.0).abs() < 1e-5,
+                "{} {}",
+                found.probability,
+                moments[0]
+            );
+            // The slope is that of the mean of the tail in variances (Fisher's identity), the square its second moment.
+            let [mean, square] = [moments[1], moments[2]].map(|sum| sum / moments[0]);
+            assert!((found.slope - mean / 0.01).abs() < 1e-3, "{} {mean}", found.slope);
+            assert!((found.square - square).abs() < 1e-6, "{} {square}", found.square);
+            let information = (1.0 - (square - mean * mean) / 0.01) / 0.01;
+            assert!((found.information - information).abs() < 0.01, "{} {information}", found.information);
+        }
+    }
+
+    #[test]
+    fn far_beyond_its_limit_a_censored_value_is_a_reading_at_the_limit() {
+        let stated = Limit { reading: Reading { value: 0.2, error: None }, below: true };
+        let [near, far] = [4.0, 9.0].map(|expected| Censored::new(&stated, expected, 0.1, 0.0));
+        for (found, distance) in [(near, 38.0), (far, 88.0)] {
+            assert!((found.slope / (-10.0 * distance) - 1.0).abs() < 2e-3, "{found:?}");
+            assert!((found.information / 100.0 - 1.0).abs() < 2e-3, "{found:?}");
+        }
+        assert!(Censored::new(&stated, 4.0, 0.1, 0.02).slope.abs() < 1e-9, "a gross error has no slope");
+    }
+
+    #[test]
+    fn a_rebound_without_an_outcome_scores_as_one() {
+        let two = [prediction(0.5, 0.3, 0), prediction(0.2, 0.8, 0)];
+        for predictions in [&two[..1], &two] {
+            let of = |row: &Measurement| score(row, predictions, &EXACT, [0.1; 2]);
+            assert_eq!(of(&row(Some(0.4), None, 1.0)), of(&row(Some(0.4), Some(0.0), 1.0)));
+            // An average over the rebounds among several impacts says nothing about captures.
+            assert!(of(&row(Some(0.4), None, 3.0)) > of(&row(Some(0.4), Some(0.0), 3.0)));
+        }
+        let one = score(&row(Some(0.5), None, 1.0), &two[..1], &EXACT, [0.1; 2]);
+        let expected = (1.0 - (0.005 + 0.99 * 0.3_f64)).ln() + Normal::new(0.5, 0.1).unwrap().pdf(0.5).ln();
+        assert!((one - expected).abs() < 1e-12, "{one}, {expected}");
+    }
+
+    /// All impacts of an average have the same unknown input; each single impact has its own.
+    #[test]
+    fn a_missing_input_of_an_average_is_the_same_for_all_its_impacts() {
+        let cold_or_hot = [prediction(0.6, 0.0, 0), prediction(0.2, 0.0, 1)];
+        let average = score(&row(Some(0.6), None, 25.0), &cold_or_hot, &EXACT, [0.1; 2]);
+        let law = Normal::new(0.6, 0.02).unwrap();
+        let expected = (0.5 * law.pdf(0.6) + 0.5 * law.pdf(1.0)).ln();
+        assert!((average - expected).abs() < 1e-9, "{average}, {expected}");
+        assert!(law.cdf(0.6) == 0.5);
+    }
 }

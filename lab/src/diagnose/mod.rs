@@ -35,6 +35,7 @@ mod input_error;
 mod instrument;
 mod interval;
 mod likelihood;
+mod missing_inputs;
 mod observable;
 mod part;
 mod probability;
@@ -65,7 +66,7 @@ pub use unselected::read_measurements;
 
 use crate::dataset::{BadRow, Measurement, Measurements};
 use choice::Task;
-use constants::LEAST_ROWS;
+use constants::{LEAST_ROWS, THOROUGH};
 use data_split::DataSplit;
 use groups::GroupColumn;
 use hypothesis::Hypothesis;
@@ -131,7 +132,7 @@ pub fn diagnose_with_draws(
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let data = usable(base, data)?;
     let groups = GroupColumn::all(&data, options.group.as_deref());
-    let task = Task { text, groups: &groups, progress };
+    let task = Task { text, groups: &groups, effort: THOROUGH, progress };
     let whole = DataSplit::new(base, &data, &groups);
     let study = Study::new(&whole, task, options.seed);
     let found = examined(&study, &data, &whole, task, options, draws)?;

@@ -42,7 +42,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
                 search.with_offsets(offsets).slopes()
             },
         );
-        let plain = Forecast::new(&hypothesis.model(), &search.data.rows, &search.rows, search.data.draws);
+        let plain = Forecast::of_data(&hypothesis.model(), search.data, &search.rows);
         let means = (0..search.rows.len()).map(|place| mean(plain.of(place), &Offset::default())).collect();
         Self { hypothesis, search, scores: search.scores(), slopes, level_slopes, means }
     }
@@ -100,8 +100,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
     /// The shape of a part at one place.
     fn of_place(&self, part: &FittedPart) -> Vec<f64> {
         let changed = self.with(part);
-        let data = self.search.data;
-        let forecast = Forecast::new(&changed.model(), &data.rows, &self.search.rows, data.draws);
+        let forecast = Forecast::of_data(&changed.model(), self.search.data, &self.search.rows);
         let one = |(place, slope): (usize, &Slope)| {
             let (before, after) = (&self.means[place], mean(forecast.of(place), &Offset::default()));
             let change = |which: usize| after.restitution[which] - before.restitution[which];
@@ -180,6 +179,11 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
                 functions.push(standardised(rows.iter().map(|&row| numbers[row].ln())));
             }
         }
+        let blank = |&row: &usize| self.search.data.covariates.get(column).is_some_and(|one| one.blank[row]);
+        let blank: Vec<bool> = rows.iter().map(blank).collect();
+        if blank.contains(&true) {
+            functions.iter_mut().for_each(|function| level_blanks(function, &blank));
+        }
         functions
     }
 
@@ -227,6 +231,13 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         let scores = vec![self.slopes.iter().map(one).collect()];
         Shapes { both_signs: true, at: vec![Vec::new()], scores, gains: Vec::new() }
     }
+}
+
+/// Gives rows with a blank cell the mean of the function over the others.
+fn level_blanks(function: &mut [f64], blank: &[bool]) {
+    let stated = || function.iter().zip(blank).filter(|(_, blank)| !**blank).map(|(value, _)| *value);
+    let mean = stated().sum::<f64>() / stated().count().max(1) as f64;
+    function.iter_mut().zip(blank).filter(|(_, blank)| **blank).for_each(|(value, _)| *value = mean);
 }
 
 /// The places of a grid over this many coordinates.

@@ -93,6 +93,9 @@ fn energy_for_speed() -> OtherReading {
     let words =
         "These numbers fit if the readings were ratios of energies: are e_n and e_t squared speed ratios?";
     let change = |row: &mut Measurement| {
+        if row.limits.iter().any(Option::is_some) {
+            return None;
+        }
         let readings = [&mut row.e_n, &mut row.e_t].into_iter().flatten();
         readings.map(root).sum::<Option<f64>>()
     };

@@ -110,6 +110,17 @@ impl Basis {
     }
 }
 
+impl Basis {
+    /// The mean of the basis functions over some numbers; none over labels.
+    pub fn mean_entry(&self, numbers: &[f64]) -> Entry {
+        let Self::Hats(knots) = self else { return Vec::new() };
+        let share = 1.0 / numbers.len() as f64;
+        let one =
+            |number: &f64| hats(knots, *number).into_iter().map(move |(at, height)| (at, share * height));
+        numbers.iter().flat_map(one).collect()
+    }
+}
+
 /// The two hats over a number, constant beyond the ends.
 fn hats(knots: &[f64], value: f64) -> Entry {
     if !value.is_finite() {
@@ -249,7 +260,11 @@ pub(super) fn surface(
 /// The basis functions of an interaction: all products.
 pub(super) fn products(pair: &[(&Basis, &ColumnValues); 2], row: usize) -> Entry {
     let [one, two] = pair.map(|(basis, values)| basis.entry(values, row));
-    let wide = pair[1].0.len();
+    product(&one, &two, pair[1].0.len())
+}
+
+/// All products of two sides, of which the second has `wide` basis functions.
+pub(super) fn product(one: &Entry, two: &Entry, wide: usize) -> Entry {
     let product = |&(a, x): &(usize, f64)| two.iter().map(move |&(b, y)| (a * wide + b, x * y));
     one.iter().flat_map(product).collect()
 }

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use super::choice::{CauseChoice, Task};
+use super::constants::QUICK;
 use super::data_split::{DataSplit, shuffled};
 use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOutRows, ModelFile};
 use super::hypothesis::Hypothesis;
@@ -75,7 +76,7 @@ impl Study {
         let units = units.of_groups(&choice).unwrap_or(units);
         if !choice.names().is_empty() && units.count >= LEAST_UNITS {
             let (fitted, unseen) = units.quarter(seed);
-            let file = CauseChoice::new(&whole.fitting(&fitted), task);
+            let file = CauseChoice::new(&whole.fitting(&fitted), Task { effort: QUICK, ..task });
             if file.names() == choice.names() {
                 return Self { choice, file, unseen, units, seed };
             }
@@ -122,7 +123,7 @@ impl Study {
             let mut inside = vec![false; whole.rows.len()];
             part.iter().for_each(|&row| inside[row] = true);
             let others: Vec<usize> = (0..whole.rows.len()).filter(|&row| !inside[row]).collect();
-            let choice = CauseChoice::new(&whole.fitting(&others), task);
+            let choice = CauseChoice::new(&whole.fitting(&others), Task { effort: QUICK, ..task });
             let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
             Ok((Model::from_toml("extended.toml", &text)?, choice.scatter()))
         };

@@ -91,16 +91,16 @@ mod tests {
 
     const BASE: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
         [normal]\nmodel = \"thornton-ning\"\nyield_ratio = 0.7\n[tangential]\nmodel = \"constant\"\ne_t = 0.76\n";
-    const MELTING: &str = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 345.0\nwidth = 8.0\n";
+    const SOFTENING: &str = "[[effects]]\nkind = \"thermal-softening\"\nonset = 310.0\nscale = 80.0\n";
 
-    /// Rows of wax that melts, a tenth of them without a plausible size, with a rare operator and a rare capture.
+    /// Rows of wax that softens, a tenth of them without a plausible size, with a rare operator and a rare capture.
     fn rows(count: u64) -> String {
-        let truth = Model::from_toml("truth.toml", &format!("{BASE}{MELTING}")).unwrap();
+        let truth = Model::from_toml("truth.toml", &format!("{BASE}{SOFTENING}")).unwrap();
         let mut text = "v_n,v_t,d,T_p,e_n,outcome,operator,burst\n".to_owned();
         for row in 0..count {
             let draw = |stream| ImpactRng::new(5, row).uniform(stream);
             let impact = Impact {
-                normal_speed: 0.5 + 3.0 * draw(0),
+                normal_speed: 1.5 + 3.0 * draw(0),
                 tangential_speed: draw(1),
                 diameter: if row % 10 == 9 { 1e-16 } else { 2e-5 + 8e-5 * draw(2) },
                 particle_temperature: 300.0 + 60.0 * draw(3),
@@ -145,9 +145,9 @@ mod tests {
         assert!((500..=800).contains(&part.rows.selected.unwrap()), "{:?}", part.rows.selected);
         for diagnosis in [&part, &all] {
             let names: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
-            assert_eq!(names, ["melting-transition"]);
-            let temperature = diagnosis.findings[0].parameters["temperature"];
-            assert!((temperature.low..=temperature.high).contains(&345.0), "{temperature:?}");
+            assert_eq!(names, ["thermal-softening"]);
+            let onset = diagnosis.findings[0].parameters["onset"];
+            assert!((onset.low..=onset.high).contains(&310.0), "{onset:?}");
         }
         let [one, other] = [&part, &all].map(|diagnosis| diagnosis.gain.clone().unwrap().ci95);
         assert!(one[0] < other[1] && other[0] < one[1], "{one:?} and {other:?}");

@@ -13,7 +13,8 @@ pub fn file_notes(file: &str, reader: &ImpactReader<impl Read>) -> Vec<String> {
     let near_miss = |(column, input): (&str, &str)| {
         format!("{file}: column `{column}` is not used; rename it if it is the input `{input}` in SI units")
     };
-    let mut notes: Vec<String> = reader.near_misses().into_iter().map(near_miss).collect();
+    let mut notes: Vec<String> = reader.notes().iter().map(|note| format!("{file}: {note}")).collect();
+    notes.extend(reader.near_misses().into_iter().map(near_miss));
     let own = reader.absent_extra().filter_map(ExtraInput::describe_default);
     let assumed: Vec<String> = assumed(&reader.absent()).into_iter().chain(own).collect();
     if !assumed.is_empty() {
