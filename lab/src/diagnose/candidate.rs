@@ -145,6 +145,11 @@ impl Addition {
         }
     }
 
+    /// Whether a parameter is at the bound of its range: no law then, whatever it gains.
+    pub fn at_bound(&self) -> bool {
+        matches!(self, Self::Part { part, .. } if part.at_bound())
+    }
+
     /// Adds it to a hypothesis.
     pub fn add_to(&self, hypothesis: &mut Hypothesis<'_>) {
         match self {

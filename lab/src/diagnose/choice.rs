@@ -22,7 +22,7 @@ use super::shared_error::SharedErrors;
 pub(super) struct Task<'a> {
     /// Text of the base model.
     pub text: &'a str,
-    /// The columns that group the rows.
+    /// The columns that group the rows, and groups that no name tells.
     pub groups: &'a [GroupColumn],
     pub effort: Effort,
     /// Called after each candidate.

@@ -4,6 +4,8 @@ use super::data_split::DataSplit;
 use super::explanation::Evidence;
 use super::groups::GroupColumn;
 use super::hypothesis::Hypothesis;
+use super::input_error::assume;
+use super::likelihood::Offset;
 use super::missing_inputs::MissingInputs;
 use super::reading::{OtherReading, readings};
 use super::skew::skewed;
@@ -55,6 +57,10 @@ impl Ground {
 pub(super) fn grounds(data: &DataSplit, groups: &[GroupColumn], text: &str, evidence: Evidence) -> Vec<Ground> {
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
+    if data.noise.iter().any(|offset| offset.gross > 0.0) {
+        all.extend(RUBBISH.map(|share| with_rubbish(data, share)));
+    }
+    all.extend(UNSTATED.iter().filter_map(|name| with_input_errors(data, name, evidence)));
     let others = slips(&data.base, text).into_iter().chain(readings(data));
     all.extend(others.filter_map(|other| best(data, &other, evidence)));
     let skewed = skewed(data);
@@ -79,6 +85,46 @@ fn best(data: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Gr
     let finer = tried(other.near(first.1));
     let (worth, _, ground) = finer.filter(|finer| finer.0 > first.0).unwrap_or(first);
     (worth > 0.0).then_some(ground)
+}
+
+/// Inputs whose errors may be unknown to the file, and their size as a share of the value.
+const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
+const SHARES: [f64; 4] = [0.03, 0.07, 0.15, 0.3];
+/// Shares of gross errors beside the expected one [1].
+const RUBBISH: [f64; 2] = [0.1, 0.25];
+
+/// The rows with errors of an input that the file does not state, of the size that fits best.
+fn with_input_errors(data: &DataSplit, name: &str, evidence: Evidence) -> Option<Ground> {
+    data.range(name)?;
+    if data.rows.iter().any(|row| row.input_errors.of(name) > 0.0) {
+        return None;
+    }
+    let of = |share: f64| {
+        let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
+        assume(&data.base, name, share, &mut rows, &mut noise)?;
+        let refused = |row: &&usize| data.base.check(rows[**row].wall, &rows[**row].impact).is_err();
+        if data.search.iter().any(|row| refused(&row)) {
+            return None;
+        }
+        let question = format!(
+            "These numbers fit if {name} had errors of {:.0} % that the file does not state: how well is it known?",
+            100.0 * share
+        );
+        let changed = DataSplit { rows: rows.into(), noise: noise.into(), ..data.clone() };
+        let key = format!("artefact:error-of-{name}");
+        let ground = Ground { key, question: Some(question), data: changed, freedom: 1.0, ..Ground::plain(data) };
+        Some((worth(&ground, evidence), ground))
+    };
+    let best = SHARES.into_iter().filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
+    best.filter(|(worth, _)| *worth > 0.0).map(|(_, ground)| ground)
+}
+
+/// The rows with a larger share of gross errors.
+fn with_rubbish(data: &DataSplit, share: f64) -> Ground {
+    let gross = |offset: &Offset| Offset { gross: share, ..*offset };
+    let noise: Vec<Offset> = data.noise.iter().map(gross).collect();
+    let changed = DataSplit { noise: noise.into(), ..data.clone() };
+    Ground { key: format!("gross-errors:{share}"), data: changed, freedom: 1.0, ..Ground::plain(data) }
 }
 
 /// The rows read otherwise; `None` where a row has no such reading.

@@ -13,6 +13,11 @@ use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements, names_
 /// So many batches are few.
 const FEW_BATCHES: usize = 8;
 
+/// Numbers of neighbouring rows that may share an error, as while a lamp drifts.
+const BLOCKS: [usize; 3] = [5, 12, 30];
+/// Least number of groups that are noticed without a name.
+const LEAST_NOTICED: usize = 5;
+
 /// The column that groups rows.
 #[derive(Debug, Clone)]
 pub(super) struct GroupColumn {
@@ -35,6 +40,42 @@ impl GroupColumn {
             None => groups_by_default(column),
         };
         data.columns.iter().filter(named).filter_map(|column| Self::of(column, declared.is_some())).collect()
+    }
+
+    /// Groups that no name tells: columns of labels, equal inputs, and neighbours in the file.
+    pub fn noticed(data: &Measurements, known: &[Self]) -> Vec<Self> {
+        let rows = data.rows.len();
+        let unknown = |column: &&DataColumn| known.iter().all(|groups| groups.name != column.name);
+        let columns = data.columns.iter().filter(unknown).filter(|one| !one.name.is_empty());
+        let mut all: Vec<Self> = columns.filter_map(|column| Self::of(column, false)).collect();
+        all.extend(Self::of_inputs(data, "equal inputs", 1));
+        all.extend(Self::of_inputs(data, "inputs that repeat", 2));
+        for size in BLOCKS {
+            let of_row = (0..rows).map(|row| row / size).collect::<Vec<_>>();
+            let name = format!("every {size} rows of the file");
+            all.push(Self { name, declared: false, of_row: of_row.into(), count: rows.div_ceil(size) });
+        }
+        all.retain(|groups| groups.count >= LEAST_NOTICED && 2 * groups.count <= rows);
+        all
+    }
+
+    /// Rows with equal values of all inputs that have at most one value for so many rows.
+    fn of_inputs(data: &Measurements, name: &str, rows_a_value: usize) -> Option<Self> {
+        let inputs = nearwall::impact::INPUTS.iter().filter(|input| data.given.contains(&input.name));
+        let values = |input: &nearwall::impact::Input| -> Vec<u64> {
+            data.rows.iter().map(|row| (input.value)(&row.impact).to_bits()).collect()
+        };
+        let repeats = |values: &Vec<u64>| {
+            let different = values.iter().collect::<std::collections::BTreeSet<_>>().len();
+            different > 1 && different * rows_a_value <= values.len()
+        };
+        let columns: Vec<Vec<u64>> = inputs.map(values).filter(repeats).collect();
+        if columns.len() < 2 {
+            return None;
+        }
+        let key = |row: usize| Some(columns.iter().map(|column| column[row]).collect::<Vec<u64>>());
+        let (of_row, count) = numbered((0..data.rows.len()).map(key));
+        Some(Self { name: name.to_owned(), declared: false, of_row: of_row.into(), count })
     }
 
     fn of(column: &DataColumn, declared: bool) -> Option<Self> {

@@ -168,7 +168,8 @@ impl<'a> Explained for ImpactSearch<'a> {
         list.iter().for_each(|one| *counts.entry(one.class()).or_default() += 1);
         let scored = round.score(&list, self.progress);
         let prior = |class: Class| surprise(class, counts.get(&class).copied().unwrap_or(1));
-        let beside = scored.into_iter().map(|one| {
+        let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
+        let beside = inside.map(|one| {
             let log_prior = prior(one.addition.class());
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
@@ -177,6 +178,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         let rest = all.split_off(all.len().min(self.refitted));
         let refitted = all.into_iter().map(|new| self.refitted(of, new));
         let mut found: Vec<_> = refitted.chain(rest).collect();
+        found.retain(|new| !new.fitted.hypothesis.parts.iter().any(|part| part.at_bound()));
         found.extend(self.grouped(of));
         found
     }

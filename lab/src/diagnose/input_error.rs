@@ -37,6 +37,20 @@ pub(super) fn corrected(base: &Model, data: &Measurements) -> (Vec<Measurement>,
     (rows, noise)
 }
 
+/// The same for one input whose errors, a share of every value, are not stated.
+pub(super) fn assume(
+    base: &Model,
+    name: &str,
+    share: f64,
+    rows: &mut [Measurement],
+    noise: &mut [Offset],
+) -> Option<()> {
+    let input = INPUTS.iter().find(|input| input.name == name)?;
+    let errors: Vec<f64> = rows.iter().map(|row| share * (input.value)(&row.impact).abs()).collect();
+    correct(base, input, &errors, rows, noise);
+    Some(())
+}
+
 /// Corrects one input.
 fn correct(base: &Model, input: &Input, errors: &[f64], rows: &mut [Measurement], noise: &mut [Offset]) {
     let values: Vec<f64> = rows.iter().map(|row| (input.value)(&row.impact)).collect();

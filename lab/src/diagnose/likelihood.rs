@@ -46,6 +46,8 @@ pub(super) struct Offset {
     pub uncertainty: [f64; 2],
     /// Least `e_n` that the instrument sees [1].
     pub visible_from: f64,
+    /// Whether smaller ones are noted as captures rather than missing.
+    pub noted: bool,
     /// Expected share of gross errors [1].
     pub gross: f64,
 }
@@ -59,6 +61,7 @@ impl Default for Offset {
             variance: [0.0; 2],
             uncertainty: [0.0; 2],
             visible_from: f64::NEG_INFINITY,
+            noted: false,
             gross: GROSS_SHARE,
         }
     }
@@ -247,7 +250,7 @@ fn visible_log_density(residual: f64, expected: f64, deviation: f64, offset: &Of
 
 /// The offset with the limit of the instrument for `e_n` alone.
 fn limited(offset: &Offset, which: usize) -> Offset {
-    let visible_from = if which == 0 { offset.visible_from } else { f64::NEG_INFINITY };
+    let visible_from = if which == 0 && !offset.noted { offset.visible_from } else { f64::NEG_INFINITY };
     Offset { visible_from, ..*offset }
 }
 
@@ -309,6 +312,16 @@ fn log_likelihood(
     readings.sum::<f64>() + limits.sum::<f64>()
 }
 
+/// The probability of capture, or of a rebound that is noted as one.
+fn noted(one: &Prediction, offset: &Offset, scatter: Scatter, p: f64) -> f64 {
+    if !offset.noted {
+        return p;
+    }
+    let width = (scatter[0] * offset.spread).hypot(one.reach[0]).max(SMALLEST_SCATTER);
+    let hidden = Hidden::of(shifted(one, offset)[0], width, offset.visible_from);
+    (p + (1.0 - p) * hidden.map_or(0.0, |hidden| hidden.share)).min(1.0 - UNCERTAINTY)
+}
+
 /// `e_n` and `e_t` of a prediction with the offset.
 fn shifted(one: &Prediction, offset: &Offset) -> [f64; 2] {
     [0, 1].map(|which| one.restitution[which] + offset.restitution[which])
@@ -320,7 +333,7 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
     if let [one] = predictions {
         let p = capture(one, offset);
         if captured {
-            return p.ln();
+            return noted(one, offset, scatter, p).ln();
         }
         let known = if known { (1.0 - p).ln() } else { 0.0 };
         return known + log_likelihood(row, shifted(one, offset), [0.0; 2], offset, scatter);
@@ -330,7 +343,7 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
         let p = capture(one, offset);
         all += one.weight;
         if captured {
-            sum += p * one.weight;
+            sum += noted(one, offset, scatter, p) * one.weight;
             continue;
         }
         let mut density = 1.0;

@@ -132,8 +132,9 @@ pub fn diagnose_with_draws(
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     let data = usable(base, data)?;
     let groups = GroupColumn::all(&data, options.group.as_deref());
-    let task = Task { text, groups: &groups, effort: THOROUGH, progress };
     let whole = DataSplit::new(base, &data, &groups);
+    let groups = [GroupColumn::noticed(&data, &groups), groups].concat();
+    let task = Task { text, groups: &groups, effort: THOROUGH, progress };
     let study = Study::new(&whole, task, options.seed);
     let found = examined(&study, &data, &whole, task, options, draws)?;
     if !is_worse(&found.0) {

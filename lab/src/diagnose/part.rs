@@ -8,6 +8,9 @@ use nearwall::model::Model;
 use nearwall::normal::NormalLaw;
 use nearwall::tangential::TangentialLaw;
 
+/// A coordinate nearer than this to 0 or 1 is at a bound.
+const AT_BOUND: f64 = 0.005;
+
 /// A parameter of the base model's own laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LawParameter {
@@ -124,6 +127,11 @@ impl FittedPart {
     /// The part at the middle of its search ranges.
     pub fn middle(part: Part, axes: Vec<SearchAxis>) -> Self {
         Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new(), inseparable: Vec::new() }
+    }
+
+    /// Whether a parameter is at the bound of its range.
+    pub fn at_bound(&self) -> bool {
+        self.at.iter().any(|at| !(AT_BOUND..=1.0 - AT_BOUND).contains(at))
     }
 
     /// Makes the parameters that are left at their defaults free.

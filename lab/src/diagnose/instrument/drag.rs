@@ -2,8 +2,8 @@
 //!
 //! In gas at rest a small particle loses `Δ = x 18 μ/(ρ d²) = c/d²` of its speed over the distance `x`
 //! between window and wall (Stokes): it arrives with `v_n - Δ`, and its rebound, seen as `e_n v_n`, left
-//! the wall with `e_n v_n + Δ`. The parameter is `c` [m³/s], tried from a thousandth to a half of
-//! the least `v_n d²`. The slope of the reading is `v_n/(v_n - Δ)`.
+//! the wall with `e_n v_n + Δ`; tangential speeds change by the same factors. The parameter is `c` [m³/s], tried from a thousandth to a half of
+//! the least `v_n d²`. The slope of `e_n` is `v_n/(v_n - Δ)`.
 
 use super::super::data_split::DataSplit;
 use super::super::likelihood::Offset;
@@ -40,14 +40,24 @@ pub(super) fn reading(data: &DataSplit) -> Option<OtherReading> {
 fn slow_down(row: &mut Measurement, _: &mut Offset, constant: f64) -> Option<f64> {
     let before = row.impact.normal_speed;
     let lost = constant / row.impact.diameter.powi(2);
-    let after = before - lost;
-    if after <= 0.0 {
+    let arrives = (before - lost) / before;
+    if arrives <= 0.0 {
         return None;
     }
-    row.impact.normal_speed = after;
+    row.impact.normal_speed *= arrives;
+    row.impact.tangential_speed *= arrives;
     let Some(e_n) = row.e_n else { return Some(0.0) };
-    let slope = before / after;
-    let value = (e_n.value * before + lost) / after;
-    row.e_n = Some(Reading { value, error: e_n.error.map(|error| error * slope), ..e_n });
+    if e_n.value <= 0.0 {
+        return None;
+    }
+    let leaves = 1.0 + lost / (e_n.value * before);
+    let scaled = |one: Reading, slope: f64| Reading {
+        value: one.value * leaves / arrives,
+        error: one.error.map(|error| error * slope),
+        ..one
+    };
+    row.e_n = Some(scaled(e_n, 1.0 / arrives));
+    let slope = if row.e_t.is_some() { leaves / arrives.powi(2) } else { 1.0 / arrives };
+    row.e_t = row.e_t.map(|e_t| scaled(e_t, leaves / arrives));
     Some(slope.ln())
 }

@@ -11,7 +11,8 @@ use super::reading::OtherReading;
 type Reading = fn(&DataSplit) -> Option<OtherReading>;
 
 /// All of them.
-pub(super) const ALL: [Reading; 4] = [tilt::reading, drag::reading, unseen::by_ratio, unseen::by_speed];
+pub(super) const ALL: [Reading; 5] =
+    [tilt::reading, drag::reading, unseen::by_ratio, unseen::by_speed, unseen::noted_as_stuck];
 
 /// Even values from `low` to `high`, without 0.
 fn values(low: f64, high: f64, count: usize) -> Vec<f64> {

@@ -1,4 +1,5 @@
-//! Slow rebounds that the instrument does not see: below a ratio `e_n`, or below a speed `e_n v_n`.
+//! Slow rebounds that the instrument does not see, below a ratio `e_n` or below a speed `e_n v_n`, or that
+//! are noted as stuck.
 //!
 //! The limit is just below the least one that was seen, which is its most likely value. A limit that
 //! the user states is in the noise of the rows already.
@@ -18,7 +19,7 @@ pub(super) fn by_ratio(data: &DataSplit) -> Option<OtherReading> {
              the instrument detects? State it as [detection] in the column map."
         )
     };
-    Some(unseen(limit, Box::new(question), |_| 1.0))
+    Some(limited("artefact:truncation", limit, Box::new(question), |_| 1.0, false))
 }
 
 pub(super) fn by_speed(data: &DataSplit) -> Option<OtherReading> {
@@ -30,7 +31,16 @@ pub(super) fn by_speed(data: &DataSplit) -> Option<OtherReading> {
              the instrument detects? State it as [detection] in the column map."
         )
     };
-    Some(unseen(limit, Box::new(question), |row| row.impact.normal_speed))
+    Some(limited("artefact:truncation", limit, Box::new(question), |row| row.impact.normal_speed, false))
+}
+
+pub(super) fn noted_as_stuck(data: &DataSplit) -> Option<OtherReading> {
+    data.search.iter().find(|&&row| data.rows[row].captured.is_some_and(|share| share > 0.5))?;
+    let limit = least(data, |row| row.impact.normal_speed)?;
+    let question = |limit: f64| {
+        format!("These numbers fit if rebounds slower than {limit:.3} m/s were noted as stuck: how is sticking told?")
+    };
+    Some(limited("artefact:noted-as-stuck", limit, Box::new(question), |row| row.impact.normal_speed, true))
 }
 
 /// Just below the least reading of `e_n` times `factor`; `None` where a limit is stated.
@@ -44,16 +54,19 @@ fn least(data: &DataSplit, factor: fn(&Measurement) -> f64) -> Option<f64> {
     (least > 0.0 && least.is_finite()).then_some(BELOW * least)
 }
 
-fn unseen(
+fn limited(
+    id: &str,
     limit: f64,
     question: Box<dyn Fn(f64) -> String + Send + Sync>,
     factor: fn(&Measurement) -> f64,
+    noted: bool,
 ) -> OtherReading {
     OtherReading {
-        id: "artefact:truncation".to_owned(),
+        id: id.to_owned(),
         question,
         change: Box::new(move |row, offset, limit| {
             offset.visible_from = limit / factor(row);
+            offset.noted = noted;
             Some(0.0)
         }),
         values: vec![limit],
