@@ -38,8 +38,9 @@ impl Class {
     pub fn prior(self) -> f64 {
         match self {
             Self::Law => 0.5,
-            Self::Number | Self::Curve | Self::Rival | Self::Noise => 0.2,
-            Self::Level | Self::Surface => 0.1,
+            Self::Number | Self::Noise => 0.2,
+            Self::Curve | Self::Rival => 0.1,
+            Self::Level | Self::Surface => 0.03,
         }
     }
 }

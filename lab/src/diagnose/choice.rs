@@ -95,6 +95,26 @@ impl FoundParts {
     }
 }
 
+/// Divides the gains of explanations by the dispersion of captures in classes about the best one, where
+/// impacts of a class are not independent (quasi-likelihood; McCullagh and Nelder 1989, ch. 9).
+fn temper(visited: &mut [ImpactExplanation<'_>], grounds: &[Ground]) {
+    let Some(best) = visited.first() else { return };
+    let hypothesis = &best.fitted.hypothesis;
+    let data = &grounds[best.fitted.ground].data;
+    let rows = hypothesis.evaluate(&*data.search, hypothesis.offsets());
+    let (pearson, classes) = rows.dispersion();
+    let left = classes as f64 - best.freedom;
+    if left < 1.0 || pearson <= left {
+        return;
+    }
+    let base = visited.iter().find(|one| one.keys.is_empty()).map(|one| one.scores.clone());
+    let Some(base) = base else { return };
+    for one in visited {
+        let scores = one.scores.iter().zip(&base);
+        one.scores = scores.map(|(own, base)| base + (own - base) * left / pearson).collect();
+    }
+}
+
 /// The ids of the causes of an explanation and of its rival, in alphabetical order.
 fn causes(one: &ImpactExplanation<'_>, ground: &Ground) -> Vec<String> {
     let systematic = one.fitted.found.iter().filter(|found| found.addition.is_systematic());
@@ -126,9 +146,11 @@ impl CauseChoice {
     /// Chooses among explanations on the fitted rows.
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
-        let grounds = grounds(data, task.groups, task.text, evidence);
-        let search = ImpactSearch::new(&grounds, evidence, task.effort.refitted, task.progress);
-        let visited = explore(&search, search.starts(), task.effort.expanded);
+        let (grounds, readings) = grounds(data, task.groups, task.text, evidence);
+        let search =
+            ImpactSearch::new((&grounds, readings), evidence, task.effort.refitted, task.progress);
+        let mut visited = explore(&search, search.starts(), task.effort.expanded);
+        temper(&mut visited, &grounds);
         let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
         let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();

@@ -269,6 +269,18 @@ impl<'a> Evaluation<'a> {
         (count > 0).then_some((sum, count))
     }
 
+    /// Pearson's chi-square of captures in classes, and the number of classes.
+    pub fn dispersion(&self) -> (f64, usize) {
+        let (mut sum, mut count) = (0.0, 0);
+        for (_, row, predictions, offset) in self.each().filter(|(_, row, ..)| row.impacts > 1.0) {
+            let Some(captured) = row.captured else { continue };
+            let p = mean(predictions, &offset).capture;
+            sum += row.impacts * (captured - p).powi(2) / (p * (1.0 - p));
+            count += 1;
+        }
+        (sum, count)
+    }
+
     /// Pearson's chi-square of all captures and readings, and their number.
     pub fn pearson(&self) -> (f64, usize) {
         let (mut sum, mut count) = (0.0, 0);

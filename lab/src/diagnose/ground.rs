@@ -52,20 +52,26 @@ impl Ground {
     }
 }
 
-/// All grounds, the rows as they are first; `text` is the file of the base model. Of the other
-/// readings those stay that have more evidence than the rows as they are.
-pub(super) fn grounds(data: &DataSplit, groups: &[GroupColumn], text: &str, evidence: Evidence) -> Vec<Ground> {
+/// All grounds, the rows as they are first, and the number of other readings that were tried; `text`
+/// is the file of the base model. Of the other readings those stay that have more evidence than the
+/// rows as they are.
+pub(super) fn grounds(
+    data: &DataSplit,
+    groups: &[GroupColumn],
+    text: &str,
+    evidence: Evidence,
+) -> (Vec<Ground>, usize) {
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
     if data.noise.iter().any(|offset| offset.gross > 0.0) {
         all.extend(RUBBISH.map(|share| with_rubbish(data, share)));
     }
     all.extend(UNSTATED.iter().filter_map(|name| with_input_errors(data, name, evidence)));
-    let others = slips(&data.base, text).into_iter().chain(readings(data));
-    all.extend(others.filter_map(|other| best(data, &other, evidence)));
+    let others: Vec<OtherReading> = slips(&data.base, text).into_iter().chain(readings(data)).collect();
+    all.extend(others.iter().filter_map(|other| best(data, other, evidence)));
     let skewed = skewed(data);
     all.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
-    all
+    (all, others.len() + UNSTATED.len() + 1)
 }
 
 /// Log evidence of the base model on a ground over that on the rows as they are [nats].

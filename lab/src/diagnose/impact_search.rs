@@ -33,6 +33,8 @@ pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
 /// The search on some grounds.
 pub(super) struct ImpactSearch<'a> {
     grounds: &'a [Ground],
+    /// Number of other readings that were tried.
+    readings: usize,
     evidence: Evidence,
     /// Explanations of each expansion that are fitted together.
     refitted: usize,
@@ -57,20 +59,19 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
 
 impl<'a> ImpactSearch<'a> {
     pub fn new(
-        grounds: &'a [Ground],
+        (grounds, readings): (&'a [Ground], usize),
         evidence: Evidence,
         refitted: usize,
         progress: &'a (dyn Fn() + Sync),
     ) -> Self {
-        Self { grounds, evidence, refitted, progress }
+        Self { grounds, readings, evidence, refitted, progress }
     }
 
     /// The base model on every ground that is no noise.
     pub fn starts(&self) -> Vec<ImpactExplanation<'a>> {
-        let rivals = self.grounds.iter().filter(|ground| ground.is_rival()).count();
         let start = |(place, ground): (usize, &'a Ground)| {
             let hypothesis = Hypothesis::base(&ground.data);
-            let log_prior = if ground.is_rival() { surprise(Class::Rival, rivals) } else { 0.0 };
+            let log_prior = if ground.is_rival() { surprise(Class::Rival, self.readings) } else { 0.0 };
             let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
             let scores = ground.scores(&hypothesis);
             let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };

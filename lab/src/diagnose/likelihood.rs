@@ -1,8 +1,8 @@
 //! The log score of a measured row under a prediction.
 //!
 //! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a
-//! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.4`, where the second
-//! term is uniform over a width of 2.5. So a few outliers cannot decide for or against a cause. A
+//! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.8`, where the second
+//! term is uniform over a width of 1.25. So a few outliers cannot decide for or against a cause. A
 //! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995; a single impact with
 //! `e_n` above 0 is a rebound whether or not an outcome is stated. Under a stochastic model, and
 //! where a row does not state all inputs, the probability of a row is the mean over its predictions.
@@ -15,8 +15,8 @@ use crate::dataset::{Limit, Measurement, Reading};
 
 /// Expected share of gross errors among many readings [1].
 pub(super) const GROSS_SHARE: f64 = 0.02;
-/// Density of a gross error [1].
-pub(super) const GROSS_DENSITY: f64 = 0.4;
+/// Density of a gross error [1]: uniform over a width of 1.25.
+pub(super) const GROSS_DENSITY: f64 = 0.8;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
 const NEGLIGIBLE_DISTANCE: f64 = 8.0;
 /// A prediction is at most this many standard deviations beyond a limit: the tail's probability is still a number.
@@ -492,6 +492,7 @@ mod tests {
         variance: [0.0; 2],
         uncertainty: [0.0; 2],
         visible_from: f64::NEG_INFINITY,
+        noted: false,
         gross: 0.0,
     };
 

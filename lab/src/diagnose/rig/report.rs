@@ -126,6 +126,15 @@ fn rivals(round: &RigRound) -> Vec<String> {
     names
 }
 
+/// Probability of a candidate among those of its round and none, equally likely before the readings:
+/// the gain is the evidence (Akaike weights; Burnham and Anderson 2002).
+fn probability(round: &RigRound, one: &Scored) -> f64 {
+    let all = std::iter::once(&round.winner).chain(&round.others);
+    let most = all.clone().map(|other| other.gain).fold(0.0, f64::max);
+    let total: f64 = all.map(|other| (other.gain - most).exp()).sum::<f64>() + (-most).exp();
+    (one.gain - most).exp() / total
+}
+
 /// Factor on the variance of the likelihood by a misfit that the additions leave.
 ///
 /// # Errors
@@ -295,7 +304,7 @@ impl RigFindings<'_> {
             .map(|other| Alternative {
                 cause: other.addition.name(),
                 score_difference: gain - other.gain,
-                probability: 0.0,
+                probability: probability(round, other),
             });
         let observable = self.observable(addition)?;
         let mut finding = Finding {
@@ -305,7 +314,7 @@ impl RigFindings<'_> {
             gain,
             chi_square: 2.0 * (gain + addition.axes.len() as f64),
             sigma: sigma(p_value),
-            probability: round.certainty,
+            probability: probability(round, &round.winner),
             certainty: round.certainty,
             lack_of_fit: None,
             not_separable: Vec::new(),

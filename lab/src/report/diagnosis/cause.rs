@@ -5,7 +5,7 @@ use super::super::format::{by_chance, listed, number, whole_percent};
 use super::super::page::{Page, Table};
 use super::axis::ColumnAxis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
-use super::{cause_title, curve, spread, usage};
+use super::{cause_title, curve, probability, spread, usage};
 use crate::diagnose::{Alternative, CauseSurface, Diagnosis, Estimate, Finding};
 use nearwall::effect::EFFECTS;
 
@@ -63,10 +63,7 @@ fn certainty(finding: &Finding) -> String {
     if !finding.indistinguishable_from.is_empty() {
         let others: Vec<String> =
             finding.indistinguishable_from.iter().map(|cause| cause_title(cause)).collect();
-        text += &format!(
-            " These data cannot tell it from {}. The simplest of them is named; it is not proven.",
-            listed(&others, "or")
-        );
+        text += &format!(" These data do not exclude {}.", listed(&others, "or"));
     }
     text
 }
@@ -144,9 +141,7 @@ fn heights(finding: &Finding, surface: &CauseSurface) -> Table {
 pub(in crate::report) fn add_alternatives(page: &mut Page, finding: &Finding) {
     let row = |other: &Alternative| {
         let difference = other.score_difference;
-        let ratio = difference.exp();
-        let ratio = if ratio > 1e4 { "> 10000".to_owned() } else { number((100.0 * ratio).round() / 100.0) };
-        vec![cause_title(&other.cause), format!("{:+.1}", 2.0 * difference), ratio]
+        vec![cause_title(&other.cause), format!("{:+.1}", 2.0 * difference), probability(other.probability)]
     };
     if finding.alternatives.is_empty() {
         return;
@@ -154,14 +149,9 @@ pub(in crate::report) fn add_alternatives(page: &mut Page, finding: &Finding) {
     page.table(Table::new(
         "Other candidates, less what their number of parameters gains by chance.",
         1,
-        &["alternative", "chi-square higher by", "data less likely by a factor of"],
+        &["alternative", "chi-square higher by", "probability"],
         finding.alternatives.iter().map(row).collect(),
     ));
-    let mut text = "A factor above 20 is clear; below 3 the data hardly decide.".to_owned();
-    if finding.alternatives.iter().any(|other| other.score_difference < 0.0) {
-        text += " A better alternative was not chosen because it needs more parameters or is a curve without a law.";
-    }
-    page.note(text);
 }
 
 fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {

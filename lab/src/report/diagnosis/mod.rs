@@ -18,7 +18,7 @@ pub(super) mod usage;
 use super::format::{number, once_in, whole_percent};
 use super::page::{Page, Table};
 use crate::dataset::BadRow;
-use crate::diagnose::{Calibration, Diagnosis, Finding, Rows};
+use crate::diagnose::{Calibration, Diagnosis, ExplanationFound, Finding, Rows};
 
 /// Most rejected rows listed.
 const REJECTED: usize = 50;
@@ -38,6 +38,7 @@ pub fn page(diagnosis: &Diagnosis, names: &[String; 2], extended: &str) -> Resul
     fit::add(&mut page, diagnosis);
     rivals::add(&mut page, diagnosis);
     rivals::add_undecided(&mut page, diagnosis);
+    add_explanations(&mut page, diagnosis);
     add_overview(&mut page, &diagnosis.findings);
     groups::add(&mut page, diagnosis);
     data::add(&mut page, diagnosis);
@@ -84,6 +85,34 @@ pub(super) fn cause_title(cause: &str) -> String {
     }
 }
 
+/// A probability with two digits, never 0 or 1.
+pub(super) fn probability(probability: f64) -> String {
+    match probability {
+        p if p > 0.995 => "> 0.99".to_owned(),
+        p if p < 0.005 => "< 0.01".to_owned(),
+        p => format!("{p:.2}"),
+    }
+}
+
+/// The explanations that hold 95 %, with their probabilities.
+fn add_explanations(page: &mut Page, diagnosis: &Diagnosis) {
+    if diagnosis.explanations.is_empty() {
+        return;
+    }
+    let row = |one: &ExplanationFound| {
+        let causes: Vec<String> = one.causes.iter().map(|cause| cause_title(cause)).collect();
+        let causes = if causes.is_empty() { "the base model as it is".to_owned() } else { causes.join(" and ") };
+        vec![causes, probability(one.probability)]
+    };
+    page.heading("How likely is which explanation?");
+    page.table(Table::new(
+        "The explanations that together have a probability of 95 %. A cause is named from 0.8 on.",
+        1,
+        &["explanation", "probability"],
+        diagnosis.explanations.iter().map(row).collect(),
+    ));
+}
+
 /// The causes with their certainty, and what they cannot be told from.
 pub(super) fn add_overview(page: &mut Page, findings: &[Finding]) {
     let row = |finding: &Finding| {
@@ -97,6 +126,7 @@ pub(super) fn add_overview(page: &mut Page, findings: &[Finding]) {
             cause::significance(finding),
             once_in(finding.q_value),
             whole_percent(finding.certainty),
+            probability(finding.probability),
         ]
     };
     if findings.is_empty() {
@@ -109,6 +139,7 @@ pub(super) fn add_overview(page: &mut Page, findings: &[Finding]) {
         "significance [sigma]",
         "by chance once in",
         "named in resampled data sets",
+        "probability",
     ];
     page.heading("Causes at a glance");
     page.table(Table::new("", 3, &header, findings.iter().map(row).collect()));

@@ -2,7 +2,7 @@
 
 use super::super::format::{listed, number};
 use super::super::page::{Callout, Page, RowStatus, Table};
-use super::{cause_title, plot::title};
+use super::{cause_title, plot::title, probability};
 use crate::diagnose::{Diagnosis, Rival};
 use nearwall::effect::EFFECTS;
 
@@ -68,7 +68,7 @@ fn sentence(rival: &Rival, diagnosis: &Diagnosis) -> String {
             (size, false) => format!(", {} less than with the best cause", number(size)),
         };
     }
-    text + "."
+    text + &format!("; its probability is {}.", probability(rival.probability))
 }
 
 /// Causes of which one is significant, if the data cannot tell which.

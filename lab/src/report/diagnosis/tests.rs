@@ -81,13 +81,14 @@ fn finding(cause: &str) -> Finding {
         gain: 20.25,
         chi_square: 40.5,
         sigma: 5.2,
+        probability: 0.97,
         certainty: 0.86,
         lack_of_fit: Some(0.4),
         not_separable: Vec::new(),
         p_value: 1e-8,
         q_value: 2.1e-7,
         parameters: BTreeMap::from([("friction", value)]),
-        alternatives: vec![Alternative { cause: "gas-lift".into(), score_difference: 2.0 }],
+        alternatives: vec![Alternative { cause: "gas-lift".into(), score_difference: 2.0, probability: 0.02 }],
         indistinguishable_from: Vec::new(),
         measure_next: Vec::new(),
         curve: None,
@@ -264,6 +265,7 @@ fn slips_of_input_stand_above_the_causes() {
         observable: "e_t",
         gain: 30.0,
         lead: 9.75,
+        probability: 0.9,
         explanation: "these numbers fit if d were twice as large: is the radius given?".into(),
     }];
     let text = text(&diagnosis, EXTENDED);
