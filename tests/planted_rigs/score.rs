@@ -197,7 +197,9 @@ pub fn report(all: &[Judgement]) -> Vec<String> {
 pub fn silence(all: &[Judgement], most: f64, longest: f64) -> Vec<String> {
     let mut families: BTreeMap<&str, Vec<&Judgement>> = BTreeMap::new();
     all.iter().for_each(|one| families.entry(&one.family).or_default().push(one));
-    println!("\n| runs | sets | name a cause | failed | median time [s] | longest [s] |\n|---|---|---|---|---|---|");
+    println!(
+        "\n| runs | sets | name a cause | failed | median time [s] | longest [s] |\n|---|---|---|---|---|---|"
+    );
     for (name, sets) in &families {
         let count = |verdict| sets.iter().filter(|one| one.verdict == verdict).count();
         let mut seconds: Vec<f64> = sets.iter().map(|one| one.seconds).collect();
