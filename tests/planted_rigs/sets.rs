@@ -18,7 +18,7 @@ const FRESH: usize = 6;
 /// How runs of a rig with a right base scatter beyond their stated errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Scatter {
-    /// Every reading lies four times as far from the truth as its error says.
+    /// Every reading scatters four times as much as its error says; a share as a beta-binomial one.
     Fourfold,
     /// Every reading is off by a factor with a standard deviation of 3 %.
     Readings,
@@ -48,8 +48,13 @@ impl Scatter {
 
     /// Moves a reading; a counted share stays one of its count.
     fn reading(self, reading: &mut Reading, is_share: bool, rng: &mut SetRng) {
-        let Reading { value, truth, count, .. } = *reading;
+        let Reading { value, truth, count, particles, .. } = *reading;
+        let all = particles.round();
         let moved = match self {
+            Self::Fourfold if is_share => {
+                let correlation = (Self::FACTOR * Self::FACTOR - 1.0) / (all - 1.0);
+                f64::from(rng.beta_binomial(all as u32, truth, correlation)) / all
+            }
             Self::Fourfold => truth + Self::FACTOR * (value - truth),
             Self::Readings => value * Self::DEVIATION.mul_add(rng.normal(), 1.0),
             Self::Settings => value,

@@ -104,7 +104,7 @@ const PATH_TOLERANCE: f64 = 1e-4;
 /// Fewest particles of an experiment. They are doubled while there are fewer than the first number
 /// of hits, or than the second where the Monte Carlo error is not small, at most to the largest.
 const PARTICLE_RANGE: [u64; 2] = [128, 1024];
-const HITS: [f64; 2] = [256.0, 2048.0];
+const HITS: [f64; 2] = [256.0, 512.0];
 /// Monte Carlo variance that is small beside that of a reading [1].
 const SMALL_VARIANCE: f64 = 0.1;
 /// Times as many follow the base law.

@@ -31,7 +31,7 @@ use nearwall::rng::ImpactRng;
 const LEAST_FOLLOWED_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `ln e_n`, of `e_t` and of the spin over that of rolling with the arriving speed [1].
-const CELL_WIDTHS: [f64; 3] = [0.1, 0.1, 0.4];
+const CELL_WIDTHS: [f64; 3] = [0.15, 0.15, 0.5];
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_FOLLOWED_HITS: u64 = 40;
 /// Most flights of a particle that are kept, in a sample of a case.

@@ -459,8 +459,9 @@ fn grouped(datum: &Datum, base: &PredictedReading, is_share: bool) -> Option<Gro
             Some(GroupedReading { own: count, with: existing.variance / single, misfit: misfit / single })
         }
         Noise::Stated(error) => {
-            let y = datum.value.clamp(0.0, 1.0);
-            let with = if is_share { 4.0 * y * (1.0 - y) } else { 1.0 };
+            // By the measured value alone, those that came out small would weigh most.
+            let middle = 0.5 * (datum.value + existing.value).clamp(0.0, 2.0);
+            let with = if is_share { 4.0 * middle * (1.0 - middle) } else { 1.0 };
             Some(GroupedReading { own: error * error + existing.variance, with, misfit })
         }
     }

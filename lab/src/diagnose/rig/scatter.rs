@@ -5,8 +5,8 @@
 //! errors, and those of one kind with counts, are a [`Group`] whose readings share one scatter `s`:
 //!
 //! - stated: variance `e² + m + s² a`, with the stated error `e`, the Monte Carlo variance `m` of
-//!   the base model's prediction, and `a = 1`, of a share `4 y (1 - y)`, at least as `e²`: a share
-//!   near 0 or 1 cannot scatter as one of a half does;
+//!   the base model's prediction, and `a = 1`, of a share `4 y (1 - y)` with the middle `y` of the
+//!   measured and the base's value: a share near 0 or 1 cannot scatter as one of a half does;
 //! - counted: beta-binomial with the correlation `s² + m/(p q)` between two particles of a run
 //!   (Skellam 1948), whose likelihood is that of a binomial of `n` particles to the power `1/φ`
 //!   over `sqrt(φ)`, with `φ = 1 + (n-1) s²` (Efron 1986, double exponential families). Where none
