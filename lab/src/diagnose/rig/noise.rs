@@ -1,6 +1,6 @@
 //! The readings of a rig with their noise, and the log likelihood of predictions.
 //!
-//! A share with a count is beta-binomial; a reading with a stated error is normal; both have a
+//! A share with a count is a binomial; a reading with a stated error is normal; both have a
 //! scatter between runs ([`super::scatter`]) over which the likelihood is averaged, so that it is no
 //! number to be fitted. Readings of one kind without error and count share one normal scatter,
 //! which is fitted, larger the smaller a count they rest on.
