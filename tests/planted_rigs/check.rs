@@ -2,7 +2,7 @@
 
 use nearwall::Model;
 use nearwall_lab::dataset::RigMeasurements;
-use nearwall_lab::rig::{CaseText, Forward, RigCase, SimulatedRig, particles_for};
+use nearwall_lab::rig::{CaseText, Forward, RigCase, SimulatedRig};
 use serde_json::{Value, json};
 
 use crate::effects::{CAUSES, null, plan};
@@ -140,7 +140,7 @@ fn base_predictions(set: &Set) -> Vec<f64> {
     let data = RigMeasurements::read("measured.csv", measured).unwrap();
     let case = CaseText::from_file(&folder.path.join("case.toml")).unwrap();
     let rigs = RigCase::all(&case, &data).unwrap();
-    let forward = SimulatedRig::new(&rigs, particles_for(&data)).unwrap();
+    let forward = SimulatedRig::new(&rigs).unwrap();
     let experiments = 0..data.experiments.len();
     experiments
         .flat_map(|one| forward.predict(one, &Model::clone).unwrap())

@@ -3,6 +3,8 @@
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with` scores the
 //!   command on all sets. It takes 10 to 20 minutes and does not reach all its gates yet:
 //!   `docs/rig-diagnosis.md` has the table.
+//! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter` checks
+//!   that runs which scatter more than stated name no cause, and the seconds.
 //! - `cargo test --release --test planted_rigs -- --nocapture clear` checks that clear effects are noticed.
 //! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that
 //!   follow the advice on what to measure next with laboratories that do not.
@@ -71,6 +73,27 @@ fn rigs_with_planted_effects() {
     };
     let all: Vec<_> = sets::wanted().par_iter().map(one).collect();
     let failures = score::report(&all);
+    assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// Most of the nulls that may name a cause.
+const FALSE_ALARMS: f64 = 0.05;
+/// Longest that a diagnosis may take, two processors being idle otherwise [s].
+const LONGEST: f64 = 30.0;
+
+/// Runs that scatter more than their errors say name no cause. One after the other: the seconds count.
+#[test]
+#[ignore = "minutes: cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter"]
+fn rigs_that_scatter() {
+    let seed = random::seed();
+    let one = |recipe: sets::Recipe| {
+        let set = recipe.make(seed);
+        let judged = score::judge(&set, &run::run(&set, seed));
+        println!("{:?} {} {:.1} s: {}", judged.verdict, judged.name, judged.seconds, judged.said.join(", "));
+        judged
+    };
+    let all: Vec<_> = sets::scattered().into_iter().map(one).collect();
+    let failures = score::silence(&all, FALSE_ALARMS, LONGEST);
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 

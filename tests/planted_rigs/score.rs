@@ -192,6 +192,30 @@ pub fn report(all: &[Judgement]) -> Vec<String> {
     failures(all)
 }
 
+/// Prints the table of rigs with a right base, and what fails: a larger share that names a cause than
+/// `most`, and a diagnosis that takes longer than `longest` [s].
+pub fn silence(all: &[Judgement], most: f64, longest: f64) -> Vec<String> {
+    let mut families: BTreeMap<&str, Vec<&Judgement>> = BTreeMap::new();
+    all.iter().for_each(|one| families.entry(&one.family).or_default().push(one));
+    println!(
+        "\n| runs | sets | name a cause | failed | median time [s] | longest [s] |\n|---|---|---|---|---|---|"
+    );
+    for (name, sets) in &families {
+        let count = |verdict| sets.iter().filter(|one| one.verdict == verdict).count();
+        let mut seconds: Vec<f64> = sets.iter().map(|one| one.seconds).collect();
+        seconds.sort_by(f64::total_cmp);
+        let (wrong, failed) = (count(Verdict::Wrong), count(Verdict::Failed));
+        let [middle, last] = [seconds[seconds.len() / 2], seconds[seconds.len() - 1]];
+        println!("| {name} | {} | {wrong} | {failed} | {middle:.1} | {last:.1} |", sets.len());
+    }
+    let named = all.iter().filter(|one| one.verdict != Verdict::Right).count();
+    let mut failures: Vec<String> =
+        require("silent", all.len() - named, all.len(), 1.0 - most).err().into_iter().collect();
+    let slow = all.iter().filter(|one| one.seconds > longest);
+    failures.extend(slow.map(|one| format!("{} took {:.1} s", one.name, one.seconds)));
+    failures
+}
+
 fn print_table(all: &[Judgement]) {
     println!(
         "\n| cause | sets | oracle notices | right | cannot tell | wrong | missed | failed | gain | bands |"

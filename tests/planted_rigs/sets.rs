@@ -1,9 +1,10 @@
 //! The sets: every cause at one of three strengths, and rigs whose base is right.
 
 use crate::effects::{self, CAUSES, Plan};
-use crate::lab::{Experiment, Lab, PARTICLES};
+use crate::lab::{Errors, Experiment, Lab, PARTICLES, Reading};
 use crate::oracle::Oracle;
 use crate::set_rng::SetRng;
+use crate::source::Knob;
 
 /// Strengths in deviations of all readings together.
 const STRENGTHS: [f64; 3] = [10.0, 5.0, 2.8];
@@ -13,6 +14,55 @@ const COUNTS: (f64, f64) = (30.0, 500.0);
 const TRIAL: [usize; 2] = [200, 1500];
 /// Fresh experiments.
 const FRESH: usize = 6;
+
+/// How runs of a rig with a right base scatter beyond their stated errors.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Scatter {
+    /// Every reading scatters four times as much as its error says; a share as a beta-binomial one.
+    Fourfold,
+    /// Every reading is off by a factor with a standard deviation of 3 %.
+    Readings,
+    /// Every setting was off by 3 % (standard deviation) of the range over which it varies.
+    Settings,
+}
+
+impl Scatter {
+    /// All of them, with the names of their sets.
+    const ALL: [(Self, &str); 3] =
+        [(Self::Fourfold, "fourfold"), (Self::Readings, "readings"), (Self::Settings, "settings")];
+    /// Standard deviation, as a share.
+    const DEVIATION: f64 = 0.03;
+    /// Factor on the error of a reading.
+    const FACTOR: f64 = 4.0;
+
+    /// The settings that a run really had.
+    fn settings(self, lab: &Lab, stated: &[f64], rng: &mut SetRng) -> Vec<f64> {
+        let moved = |(value, (_, (low, high))): (&f64, &(Knob, (f64, f64)))| {
+            value + Self::DEVIATION * (high - low) * rng.normal()
+        };
+        match self {
+            Self::Settings => stated.iter().zip(&lab.knobs).map(moved).collect(),
+            _ => stated.to_vec(),
+        }
+    }
+
+    /// Moves a reading; a counted share stays one of its count.
+    fn reading(self, reading: &mut Reading, is_share: bool, rng: &mut SetRng) {
+        let Reading { value, truth, count, particles, .. } = *reading;
+        let all = particles.round();
+        let moved = match self {
+            Self::Fourfold if is_share => {
+                let correlation = (Self::FACTOR * Self::FACTOR - 1.0) / (all - 1.0);
+                f64::from(rng.beta_binomial(all as u32, truth, correlation)) / all
+            }
+            Self::Fourfold => truth + Self::FACTOR * (value - truth),
+            Self::Readings => value * Self::DEVIATION.mul_add(rng.normal(), 1.0),
+            Self::Settings => value,
+        };
+        let within = if is_share { moved.clamp(0.0, 1.0) } else { moved };
+        reading.value = count.map_or(within, |count| (within * count).round() / count);
+    }
+}
 
 /// A set.
 pub struct Set {
@@ -51,6 +101,7 @@ pub struct Recipe {
     pub name: String,
     cause: Option<&'static str>,
     index: usize,
+    scatter: Option<Scatter>,
 }
 
 impl Recipe {
@@ -66,10 +117,13 @@ impl Recipe {
     }
 
     fn draw(&self, rng: &mut SetRng) -> Option<Set> {
-        let plan = match self.cause {
+        let mut plan = match self.cause {
             Some(cause) => effects::plan(cause, rng),
             None => effects::null(self.index, rng),
         };
+        if self.scatter.is_some() {
+            plan.lab.errors = [Errors::Stated, Errors::Counts][self.index / 3 % 2];
+        }
         let lab = &plan.lab;
         let count = 6 + rng.below(15);
         let designs = lab.design(count, rng);
@@ -89,7 +143,7 @@ impl Recipe {
                 .map(|settings| {
                     let even = lab.errors == crate::lab::Errors::Absent;
                     let share = if even { 1.0 } else { rng.uniform((0.6, 1.4)) };
-                    lab.measure(settings, particles * share, rng)
+                    self.measure(lab, settings, particles * share, rng)
                 })
                 .collect()
         };
@@ -106,6 +160,18 @@ impl Recipe {
     }
 }
 
+impl Recipe {
+    /// Measures an experiment, with the scatter of these runs.
+    fn measure(&self, lab: &Lab, settings: Vec<f64>, count: f64, rng: &mut SetRng) -> Option<Experiment> {
+        let Some(scatter) = self.scatter else { return lab.measure(settings, count, rng) };
+        let mut one = lab.measure(scatter.settings(lab, &settings, rng), count, rng)?;
+        for (reading, (observable, _)) in one.readings.iter_mut().zip(&lab.readings) {
+            scatter.reading(reading, observable.is_share(), rng);
+        }
+        Some(Experiment { settings, ..one })
+    }
+}
+
 /// The sets that this run is asked for: `NEARWALL_RIGS_SETS` repeats (1; 3 for every strength), and
 /// of those only `NEARWALL_RIGS_ONLY`, names (`powder-layer#1`), families (`powder-layer`) or
 /// beginnings (`calib*`), several with commas.
@@ -116,7 +182,12 @@ pub fn wanted() -> Vec<Recipe> {
 
 /// So many sets of each cause, at a strength after the other, and nine times as many nulls.
 pub fn recipes(repeats: usize) -> Vec<Recipe> {
-    let one = |family: &str, cause, index| Recipe { name: format!("{family}#{index}"), cause, index };
+    let one = |family: &str, cause, index| Recipe {
+        name: format!("{family}#{index}"),
+        cause,
+        index,
+        scatter: None,
+    };
     // The first strength differs from cause to cause.
     let of = |(place, cause): (usize, &'static str)| {
         let indices = (0..repeats).map(move |index| 3 * (index / 3) + (place + index) % 3);
@@ -124,6 +195,22 @@ pub fn recipes(repeats: usize) -> Vec<Recipe> {
     };
     let nulls = (0..9 * repeats).map(|index| one("null", None, index));
     CAUSES.into_iter().enumerate().flat_map(of).chain(nulls).collect()
+}
+
+/// Rigs with a right base whose runs scatter: six times `NEARWALL_RIGS_SETS` (1) of each kind, and of
+/// these only `NEARWALL_RIGS_ONLY`.
+pub fn scattered() -> Vec<Recipe> {
+    let count = 6 * std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
+    let of = |(scatter, name): (Scatter, &str)| {
+        let name = name.to_owned();
+        (0..count).map(move |index| Recipe {
+            name: format!("scatter-{name}#{index}"),
+            cause: None,
+            index,
+            scatter: Some(scatter),
+        })
+    };
+    Scatter::ALL.into_iter().flat_map(of).filter(|recipe| is_wanted(&recipe.name)).collect()
 }
 
 fn is_wanted(name: &str) -> bool {

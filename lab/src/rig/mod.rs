@@ -25,7 +25,7 @@ pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
 pub use recording::ReplayAccount;
 pub use replay_error::ReplayError;
 pub use replayed::ReplayedRig;
-pub use simulated::{RigCase, SimulatedRig, particles_for};
+pub use simulated::{RigCase, SimulatedRig};
 pub use tally::PredictedReading;
 
 use crate::dataset::Experiment;

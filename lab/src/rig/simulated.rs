@@ -6,15 +6,15 @@
 //! to the first contact their paths do not depend on the wall law, and after it they have the share
 //! of their weight that is not caught and the same random numbers, so that predictions change
 //! smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are
-//! independent. Walls with a memory (`[deposit]`) have no such paths: their case is run anew for
+//! independent. It has as many particles as its readings need, within what its hits cost. Walls with a memory (`[deposit]`) have no such paths: their case is run anew for
 //! each law, with its own random captures.
 
 use rayon::prelude::*;
 
 use super::case_text::{CaseText, SettingError, SettingFault};
-use super::tally::{PredictedReading, ReadingBlocks, TalliedHit, Tally};
+use super::tally::{PredictedReading, TalliedHit, Tally};
 use super::{Forward, ModelChange, PredictionError};
-use crate::dataset::{Experiment, RigMeasurements};
+use crate::dataset::{Experiment, RigMeasurements, RigReading};
 use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
@@ -89,7 +89,7 @@ struct Paths<'a> {
     /// In independent blocks.
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
-    base: Vec<(PredictedReading, ReadingBlocks)>,
+    base: Vec<[PredictedReading; 2]>,
 }
 
 /// All experiments with the paths of their particles up to the first contact.
@@ -101,34 +101,93 @@ pub struct SimulatedRig<'a> {
 
 /// Relative error of a step of a path: far below the Monte Carlo error [1].
 const PATH_TOLERANCE: f64 = 1e-4;
-/// Fewest and most particles of an experiment.
-const PARTICLE_RANGE: [f64; 2] = [256.0, 512.0];
+/// Fewest particles of an experiment. They are doubled while there are fewer than the first number
+/// of hits, or than the second where the Monte Carlo error is not small, at most to the largest.
+const PARTICLE_RANGE: [u64; 2] = [128, 1024];
+const HITS: [f64; 2] = [256.0, 512.0];
+/// Monte Carlo variance that is small beside that of a reading [1].
+const SMALL_VARIANCE: f64 = 0.1;
 /// Times as many follow the base law.
 const BASE_PARTICLES: u64 = 8;
-
-/// Number of particles with which the Monte Carlo error is well below that of the readings.
-pub fn particles_for(data: &RigMeasurements) -> u64 {
-    let counts = data.experiments.iter().flat_map(|one| &one.readings).filter_map(|reading| reading.count);
-    (2.0 * counts.fold(0.0, f64::max)).clamp(PARTICLE_RANGE[0], PARTICLE_RANGE[1]) as u64
-}
+/// Most flights of an experiment that are kept [1]: some 50 MB.
+const KEPT_FLIGHTS: u64 = 50_000;
+/// Standard error of a reading that states none [1], and distance of a share from 0 and 1.
+const USUAL_ERROR: f64 = 0.02;
+const SHARE_MARGIN: f64 = 0.003;
 
 impl<'a> SimulatedRig<'a> {
-    /// Flies about `particles` particles of each case to their first contact.
+    /// Flies particles of each case to their first contact: as many as its readings need.
     ///
     /// # Errors
     /// Why no particle of an experiment can be followed.
-    pub fn new(rigs: &'a [RigCase], particles: u64) -> Result<Self, PredictionError> {
-        let runs = rigs.par_iter().map(|rig| Paths::new(rig, particles)).collect::<Result<Vec<_>, _>>()?;
+    pub fn new(rigs: &'a [RigCase]) -> Result<Self, PredictionError> {
+        Self::of(rigs, Paths::adapted)
+    }
+
+    /// The same with about `particles` particles of each case.
+    ///
+    /// # Errors
+    /// Why no particle of an experiment can be followed.
+    pub fn with_particles(rigs: &'a [RigCase], particles: u64) -> Result<Self, PredictionError> {
+        Self::of(rigs, |rig| Paths::new(rig, particles)?.with_base(particles))
+    }
+
+    fn of(
+        rigs: &'a [RigCase],
+        paths: impl Fn(&'a RigCase) -> Result<Paths<'a>, PredictionError> + Sync + Send,
+    ) -> Result<Self, PredictionError> {
+        let runs = rigs.par_iter().map(paths).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { runs, experiments: rigs.iter().map(|rig| rig.experiment.clone()).collect() })
     }
 }
 
+/// Variance of a reading about a predicted value [1].
+fn variance(reading: &RigReading, predicted: f64) -> f64 {
+    let p = predicted.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
+    match (reading.error, reading.count) {
+        (Some(error), _) => error * error,
+        (None, Some(count)) if reading.quantity.is_share() => p * (1.0 - p) / count,
+        _ => USUAL_ERROR * USUAL_ERROR,
+    }
+}
+
 impl<'a> Paths<'a> {
+    /// With as many particles as the readings need, within what their hits cost.
+    fn adapted(rig: &'a RigCase) -> Result<Self, PredictionError> {
+        let [mut particles, most] = PARTICLE_RANGE;
+        loop {
+            let paths = Self::new(rig, particles)?;
+            if rig.case.deposit.is_some() {
+                return Ok(paths);
+            }
+            let (predicted, hits) = paths.tallied(&rig.case.model)?;
+            let is_small = |(reading, one): (&RigReading, &PredictedReading)| {
+                one.variance <= SMALL_VARIANCE * variance(reading, one.value) || !one.value.is_finite()
+            };
+            let small = rig.experiment.readings.iter().zip(&predicted).all(is_small);
+            if particles >= most || hits >= HITS[usize::from(!small)] {
+                return paths.with_base(particles);
+            }
+            particles *= 2;
+        }
+    }
+
+    /// Follows the base law with many particles.
+    fn with_base(mut self, particles: u64) -> Result<Self, PredictionError> {
+        if self.rig.case.deposit.is_none() {
+            let known = self.exactly(BASE_PARTICLES * particles);
+            let (own, _) = self.tallied(&self.rig.case.model)?;
+            self.base = known.into_iter().zip(own).map(|(known, own)| [known, own]).collect();
+        }
+        Ok(self)
+    }
+
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, PredictionError> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
         let starts = even_starts(&rig.case, particles);
+        let kept = (KEPT_FLIGHTS / particles.max(1)) as usize;
         let fly = |block: &Vec<Start>| -> Vec<_> {
-            block.par_iter().map(|start| PathTree::new(&rig.case, *start)).collect()
+            block.par_iter().map(|start| PathTree::new(&rig.case, *start, kept)).collect()
         };
         let flown: Vec<_> = starts.iter().map(fly).collect();
         let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());
@@ -139,12 +198,7 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
-        let mut paths = Self { rig, walls, blocks, base: Vec::new() };
-        if rig.case.deposit.is_none() {
-            let known = paths.exactly(BASE_PARTICLES * particles);
-            paths.base = known.into_iter().zip(paths.blocks(&rig.case.model)?).collect();
-        }
-        Ok(paths)
+        Ok(Self { rig, walls, blocks, base: Vec::new() })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -155,8 +209,8 @@ impl<'a> Paths<'a> {
             self.run_with_memory(model, &mut tally)?;
             return Ok(tally.predicted());
         }
-        let blocks = self.blocks(&model)?;
-        Ok(blocks.iter().zip(&self.base).map(|(one, (known, base))| one.moved(known, base)).collect())
+        let (changed, _) = self.tallied(&model)?;
+        Ok(changed.iter().zip(&self.base).map(|(to, [known, from])| known.moved(from, to)).collect())
     }
 
     /// What the base law gives with this number of particles on exact paths.
@@ -181,19 +235,23 @@ impl<'a> Paths<'a> {
         tally.predicted()
     }
 
-    /// What a model gives in each block.
-    fn blocks(&self, model: &Model) -> Result<Vec<ReadingBlocks>, PredictionError> {
+    /// What a model gives for these particles, and how often they hit a wall.
+    fn tallied(&self, model: &Model) -> Result<(Vec<PredictedReading>, f64), PredictionError> {
         let RigCase { case, experiment, place, .. } = self.rig;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
+        let mut hits = 0.0;
         for block in &self.blocks {
             for particle in block {
-                let followed = particle.follow(model, |hit| tally.hit(&tallied(case, hit)));
+                let followed = particle.follow(model, |hit| {
+                    hits += 1.0;
+                    tally.hit(&tallied(case, hit));
+                });
                 followed.map_err(|error| PredictionError::new(place, &error))?;
                 tally.end_particle_of_block(particle.mass);
             }
             tally.end_block();
         }
-        Ok(tally.blocks())
+        Ok((tally.predicted(), hits))
     }
 
     /// Runs the whole case, whose walls change with what they caught.

@@ -21,37 +21,18 @@ pub struct PredictedReading {
     pub value: f64,
     /// Its Monte Carlo variance [1].
     pub variance: f64,
+    /// Variance of what a replay cannot know [1]; see [`Tally::set_doubt`].
+    pub doubt: f64,
     /// Number of particles on which it rests.
     pub particles: f64,
 }
 
-/// A predicted reading with the part of each block of particles in it. The blocks are the same for all models.
-#[derive(Debug, Clone)]
-pub struct ReadingBlocks {
-    /// The reading.
-    pub predicted: PredictedReading,
-    /// What each block adds to the error of the reading [1]; none for a quantile.
-    residuals: Vec<f64>,
-}
-
-impl ReadingBlocks {
-    /// A better known value with the difference of these blocks from those of its model. What the
-    /// difference shares with the blocks' own error is gone from its variance; of a quantile half
-    /// is taken to be shared.
-    pub fn moved(&self, known: &PredictedReading, of_its_model: &Self) -> PredictedReading {
-        let difference = self.predicted.value - of_its_model.predicted.value;
-        let value = known.value + difference;
-        if !value.is_finite() {
-            return self.predicted;
-        }
-        let count = self.residuals.len() as f64;
-        let variance = if self.residuals.is_empty() {
-            if difference == 0.0 { 0.0 } else { 0.5 * self.predicted.variance }
-        } else {
-            let pairs = self.residuals.iter().zip(&of_its_model.residuals);
-            count / (count - 1.0).max(1.0) * pairs.map(|(a, b)| (a - b).powi(2)).sum::<f64>()
-        };
-        PredictedReading { value, variance: known.variance + variance, particles: self.predicted.particles }
+impl PredictedReading {
+    /// This better known value with the difference between two predictions for the same particles.
+    /// Its variance stays: the difference has next to none where a law is near the base.
+    pub fn moved(&self, from: &Self, to: &Self) -> Self {
+        let value = self.value + (to.value - from.value);
+        if value.is_finite() { Self { value, ..*self } } else { *to }
     }
 }
 
@@ -101,7 +82,7 @@ impl Ratio {
         let [aa, ab, bb] = self.squares;
         let scatter = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0) / (b * b);
         let small = particles / (particles - 1.0).max(1.0);
-        PredictedReading { value: ratio, variance: scatter * small, particles }
+        PredictedReading { value: ratio, variance: scatter * small, doubt: 0.0, particles }
     }
 }
 
@@ -111,8 +92,6 @@ struct ReadingSums {
     quantity: RigQuantity,
     wall: usize,
     ratio: Ratio,
-    /// Sums of each block.
-    blocks: Vec<[f64; 2]>,
     /// Sums of the present particle.
     own: [f64; 2],
     /// Whether the present particle has hit the wall.
@@ -139,7 +118,6 @@ impl Tally {
             quantity: reading.quantity,
             wall: walls.iter().position(|wall| *wall == reading.wall).unwrap_or(usize::MAX),
             ratio: Ratio::default(),
-            blocks: Vec::new(),
             own: [0.0; 2],
             arrived: false,
             values: Vec::new(),
@@ -158,8 +136,8 @@ impl Tally {
     }
 
     /// Of the next hits, this share may happen elsewhere or not at all [1]: a systematic error, of
-    /// which half counts as a standard deviation (assumed). It adds to the variance of what is a
-    /// ratio, not of quantiles.
+    /// which half counts as a standard deviation (assumed): the doubt of what is a ratio, not of
+    /// quantiles.
     pub fn set_doubt(&mut self, share: f64) {
         self.doubt = share;
     }
@@ -194,21 +172,8 @@ impl Tally {
     /// Ends a block of particles.
     pub fn end_block(&mut self) {
         for line in &mut self.lines {
-            line.blocks.push(line.own);
             line.ratio.add(std::mem::take(&mut line.own));
         }
-    }
-
-    /// What the blocks give for each reading.
-    pub fn blocks(mut self) -> Vec<ReadingBlocks> {
-        let of = |line: &mut ReadingSums| {
-            let predicted = line.predicted();
-            let [_, sum] = line.ratio.sums;
-            let residuals = line.blocks.iter().map(|[a, b]| (a - predicted.value * b) / sum);
-            let is_ratio = !matches!(line.quantity, RigQuantity::Quantile(..));
-            ReadingBlocks { predicted, residuals: if is_ratio { residuals.collect() } else { Vec::new() } }
-        };
-        self.lines.iter_mut().map(of).collect()
     }
 
     /// Ends this number of particles that hit no wall; `injected` is the mass of each at the start [kg].
@@ -274,7 +239,7 @@ impl ReadingSums {
             } else {
                 0.0
             };
-            return PredictedReading { variance: sampled.variance + doubt * doubt, ..sampled };
+            return PredictedReading { doubt: doubt * doubt, ..sampled };
         };
         self.values.sort_by(|a, b| a.0.total_cmp(&b.0));
         let total: f64 = self.values.iter().map(|(_, weight)| weight).sum();
@@ -291,7 +256,7 @@ impl ReadingSums {
         let slope = (quantile(high) - quantile(low)) / (high - low);
         let particles = self.values.len() as f64;
         let variance = probability * (1.0 - probability) / particles.max(1.0) * slope * slope;
-        PredictedReading { value: quantile(probability), variance, particles }
+        PredictedReading { value: quantile(probability), variance, doubt: 0.0, particles }
     }
 }
 
@@ -394,7 +359,7 @@ mod tests {
             });
             tally.end_particle(2.0);
         }
-        let PredictedReading { value, variance, particles } = tally.predicted()[0];
+        let PredictedReading { value, variance, particles, .. } = tally.predicted()[0];
         assert!((value - 0.3).abs() < 1e-12 && particles == 100.0);
         assert!((variance - 0.21 / 99.0).abs() < 1e-12);
     }

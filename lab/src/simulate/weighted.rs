@@ -31,10 +31,10 @@ use nearwall::rng::ImpactRng;
 const LEAST_FOLLOWED_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `ln e_n`, of `e_t` and of the spin over that of rolling with the arriving speed [1].
-const CELL_WIDTHS: [f64; 3] = [0.05, 0.05, 0.2];
+const CELL_WIDTHS: [f64; 3] = [0.15, 0.15, 0.5];
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_FOLLOWED_HITS: u64 = 40;
-/// Most flights of a particle that are kept.
+/// Most flights of a particle that are kept, in a sample of a case.
 const KEPT: usize = 100;
 
 /// A cell of the grid of outcomes.
@@ -65,6 +65,8 @@ pub struct PathTree<'a> {
     pub weight: f64,
     /// The shift of the grid, in cells.
     shift: [f64; 3],
+    /// Most flights after the first contact that are kept.
+    most_kept: usize,
 }
 
 /// A hit of a particle with a share of its weight.
@@ -114,20 +116,20 @@ impl<'a> PathTree<'a> {
         let count = case.count();
         let wanted = particles.min(count).max(1);
         let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        numbers.par_iter().map(|number| Self::new(case, Start::drawn(case, *number).0)).collect()
+        numbers.par_iter().map(|number| Self::new(case, Start::drawn(case, *number).0, KEPT)).collect()
     }
 
-    /// Flies a particle from its start to its first contact.
+    /// Flies a particle from its start to its first contact; `most_kept` of its later flights are kept.
     ///
     /// # Errors
     /// Why it cannot be followed.
-    pub fn new(case: &'a Case, start: Start) -> Result<Self, SimulationError> {
+    pub fn new(case: &'a Case, start: Start, most_kept: usize) -> Result<Self, SimulationError> {
         let ([mass, weight], first) = Node::first(case, start)?;
         let random = impact_random(case, start.number, 0);
         // Streams that no effect draws from.
         let shift = [100, 101, 102].map(|stream| random.uniform(stream));
         let first = Mutex::new((first.map(Box::new), 0));
-        Ok(Self { case, first, number: start.number, mass, weight, shift })
+        Ok(Self { case, first, number: start.number, mass, weight, shift, most_kept })
     }
 
     /// Follows the particle under a model, and hands over each of its hits.
@@ -148,7 +150,7 @@ impl<'a> PathTree<'a> {
             let random = impact_random(self.case, self.number, before);
             let Some(outcome) = node.decide(model, random, &mut share, &mut observer)? else { return Ok(()) };
             let (cell, middle) = self.cell(&node.contact.impact, &outcome);
-            if *kept >= KEPT && !node.next.contains_key(&cell) {
+            if *kept >= self.most_kept && !node.next.contains_key(&cell) {
                 let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
                 passing = next;
                 node = &mut passing;

@@ -11,7 +11,7 @@ use nearwall_lab::dataset::RigMeasurements;
 use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
 use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
 use nearwall_lab::report::{RigPage, RigSource, diagnosis_page, rig_page};
-use nearwall_lab::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig, particles_for};
+use nearwall_lab::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig};
 
 use crate::{CommandResult, progress};
 
@@ -104,7 +104,7 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
     let data = read_rig(arguments)?;
     let text = CaseText::from_file(case)?;
     let rigs = RigCase::all(&text, &data)?;
-    let forward = SimulatedRig::new(&rigs, particles_for(&data))?;
+    let forward = SimulatedRig::new(&rigs)?;
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
     write_rig(arguments, &[case], source, &found)?;

@@ -128,10 +128,19 @@ pub(super) struct RigStudy<'a> {
 }
 
 impl<'a> RigStudy<'a> {
-    pub fn new(forward: &'a dyn Forward, level: f64, seed: u64, progress: &'a (dyn Fn() + Sync)) -> Self {
-        let data = Data::new(forward.experiments());
+    /// The study of the readings of a forward model.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn new(
+        forward: &'a dyn Forward,
+        level: f64,
+        seed: u64,
+        progress: &'a (dyn Fn() + Sync),
+    ) -> Result<Self, PredictionError> {
+        let data = Data::new(forward.experiments(), &predict(forward, &[])?);
         let unchanged = unchanged_inputs(forward);
-        Self { forward, data, level, seed, progress, unchanged, tables: Mutex::default() }
+        Ok(Self { forward, data, level, seed, progress, unchanged, tables: Mutex::default() })
     }
 
     /// The predictions of all candidates beside these additions. A later call with the same causes
@@ -289,7 +298,6 @@ impl<'a> RigStudy<'a> {
     }
 
     /// What any candidate can still gain: up to predictions that equal the measured values [nats].
-    /// Without bound where a scatter is fitted.
     fn room(&self, additions: &[RigAddition], weights: &[f64]) -> Result<f64, PredictionError> {
         let predicted = predict(self.forward, additions)?;
         Ok(self.data.room(&predicted, weights))

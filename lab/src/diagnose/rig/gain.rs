@@ -10,7 +10,7 @@ use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition, moved};
 use super::choice::{RigChoice, RigStudy};
-use super::noise::PreparedReadings;
+use super::noise::FittedScatter;
 use super::posterior::Posterior;
 use super::prediction_table::predict;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
@@ -88,19 +88,13 @@ impl HeldOutExperiments {
     /// lose [`MOST_OF_ONE`]: a part that names another cause may predict no rebound at all where it
     /// is extrapolated.
     pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
-        let experiments = study.data.experiments;
+        let weights = vec![1.0; study.data.experiments];
         let values = study.data.values();
-        let score = |all: &PreparedReadings, of: &dyn Fn(usize) -> bool| {
-            let weights: Vec<f64> = (0..experiments).map(|one| f64::from(u8::from(of(one)))).collect();
-            study.data.score(all, &values, &weights)
-        };
-        let [own, others] = [self, other]
-            .map(|one| study.data.prepare(&one.predicted.iter().map(|pair| pair[1]).collect::<Vec<_>>()));
-        let fails: Vec<bool> = (0..experiments)
-            .map(|one| score(&own, &|i| i == one) < score(&others, &|i| i == one) - MOST_OF_ONE)
-            .collect();
-        let failed = fails.iter().filter(|fails| **fails).count() as f64;
-        score(&own, &|one| !fails[one]) - score(&others, &|one| !fails[one]) - MOST_OF_ONE * failed
+        let [own, others] = [self, other].map(|one| {
+            let predicted: Vec<PredictedReading> = one.predicted.iter().map(|pair| pair[1]).collect();
+            study.data.log_scores(&study.data.prepare(&predicted), &values, &weights)
+        });
+        own.iter().zip(others).map(|(own, other)| (own - other).max(-MOST_OF_ONE)).sum()
     }
 
     /// The gains in all kinds of readings that enough experiments have.
@@ -148,7 +142,7 @@ impl HeldOutExperiments {
         let data = &study.data;
         let of = |(index, datum): (usize, &super::noise::Datum)| {
             let known = !matches!(datum.noise, super::noise::Noise::Shared { .. });
-            let variance = data.variance(index, &self.predicted[index][1], &vec![0.0; data.kinds.len()]);
+            let variance = data.variance(index, &self.predicted[index][1], &FittedScatter::default());
             (datum.kind == kind && known).then_some(variance)
         };
         let known: Vec<f64> = data.readings.iter().enumerate().filter_map(of).collect();

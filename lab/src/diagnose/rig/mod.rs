@@ -18,6 +18,7 @@ mod posterior;
 mod prediction_table;
 mod proposals;
 mod report;
+mod scatter;
 mod significance;
 
 pub use next::NextExperiment;
@@ -61,8 +62,6 @@ pub enum RigError {
 
 /// Least number of readings.
 const LEAST_READINGS: usize = 3;
-/// Misfit per degree of freedom beyond which the parameters' intervals are widened by it, at this p-value.
-const MISFIT: f64 = 0.05;
 
 /// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model
 /// files are drawn from the fit; `case` simulates experiments that nobody has made yet, where there
@@ -84,7 +83,7 @@ pub fn diagnose_rig(
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });
     }
-    let study = RigStudy::new(forward, options.level, options.seed, progress);
+    let study = RigStudy::new(forward, options.level, options.seed, progress)?;
     let all = vec![1.0; study.data.experiments];
     let valid = valid(forward);
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
@@ -96,8 +95,7 @@ pub fn diagnose_rig(
         choice.additions.clear();
     }
 
-    let widened = report::widened(&study, &choice.additions, &all)?;
-    let posterior = Posterior::new(&study, &choice.additions, &all, widened);
+    let posterior = Posterior::new(&study, &choice.additions, &all);
     set_intervals(&mut choice.additions, &posterior);
     let text = extended_text(model, &choice.additions, &valid);
     let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;

@@ -143,7 +143,7 @@ pub(super) fn next_experiments(
     // A proposal that the case refuses, as a temperature without a gas property, is none.
     let cases: Vec<RigCase> =
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
-    let forward = SimulatedRig::new(&cases, PROPOSAL_PARTICLES)?;
+    let forward = SimulatedRig::with_particles(&cases, PROPOSAL_PARTICLES)?;
     let mut causes = causes(study, choice, whole, posterior)?;
     let by_state = predict_states(&forward, &mut causes);
     if causes.is_empty() || cases.is_empty() {
@@ -543,7 +543,7 @@ fn columns(
         let count = median(own().filter_map(|one| one.count).collect());
         let error = median(own().filter_map(|one| one.error).collect());
         let kind = study.data.kinds.iter().position(|kind| *kind == reading.quantity.kind());
-        let usual = match (error, kind.and_then(|kind| scatter.get(kind))) {
+        let usual = match (error, kind.and_then(|kind| scatter.unstated.get(kind))) {
             (Some(error), _) => Usual::Error(error),
             (None, Some(scatter)) if count.is_none() || !reading.quantity.is_share() => {
                 Usual::Scatter(*scatter, count.unwrap_or(1.0))

@@ -1,12 +1,19 @@
 //! The readings of a rig with their noise, and the log likelihood of predictions.
 //!
-//! A share with a count is binomial; a reading with a stated error is normal; readings of one kind
-//! without either share one normal scatter, which is fitted, larger the smaller a count they rest
-//! on. The Monte Carlo variance of a prediction adds to each.
+//! A share with a count is a binomial; a reading with a stated error is normal; both have a
+//! scatter between runs ([`super::scatter`]) over which the likelihood is averaged, so that it is no
+//! number to be fitted. Readings of one kind without error and count share one normal scatter,
+//! which is fitted, larger the smaller a count they rest on.
+//!
+//! Every explanation has the same errors. The Monte Carlo variance that adds to a reading's is that
+//! of the base model, whatever is compared: all laws follow the same particles with the same random
+//! numbers, and with a variance of its own the law that is simulated worst would be forgiven most.
+//! Only what a replay cannot know ([`PredictedReading::doubt`]) widens a single prediction.
 
 use rand_chacha::ChaCha8Rng;
-use rand_distr::{Binomial, Distribution as _, StandardNormal};
+use rand_distr::{Beta, Binomial, Distribution as _, StandardNormal};
 
+use super::scatter::{Density, GRID, Group, GroupedReading, OverGrid, log_sum};
 use crate::dataset::Experiment;
 use crate::rig::PredictedReading;
 
@@ -53,6 +60,30 @@ pub(super) struct Data {
     prior: Vec<f64>,
     /// Number of experiments.
     pub experiments: usize,
+    /// Readings that share a scatter between runs.
+    groups: Vec<Group>,
+    /// What is known of each reading with a stated error or a count; see [`Noise`].
+    known: Vec<Option<KnownError>>,
+}
+
+/// A reading with a stated error or a count in its group.
+#[derive(Debug, Clone)]
+struct KnownError {
+    /// Place in [`Data::groups`].
+    group: usize,
+    reading: GroupedReading,
+    /// Inside, and where a count is none or all.
+    densities: [Density; 2],
+}
+
+/// The scatter that was fitted to readings.
+#[derive(Debug, Clone, Default)]
+pub(super) struct FittedScatter {
+    /// Of each kind without errors and counts [1].
+    pub unstated: Vec<f64>,
+    /// Of each group, squared: of a stated error the standard deviation, of a count the
+    /// correlation [1]. None: as stated.
+    between: Vec<f64>,
 }
 
 /// Predictions of all readings, prepared for many values of the data.
@@ -61,14 +92,29 @@ pub(super) struct PreparedReadings {
     rows: Vec<PreparedReading>,
 }
 
+/// The distance of a value `y` from a prediction.
 #[derive(Debug, Clone, Copy)]
 enum PreparedReading {
-    /// `slope y + constant + count h(y)`, with the entropy `h` of a share.
-    Share { slope: f64, constant: f64, count: f64 },
-    /// `constant - (y - mean)²/(2 variance)`.
-    Normal { mean: f64, half: f64, constant: f64 },
+    /// Divergence of `y` from the share `p` [nats]; `ln p` and `ln(1-p)`.
+    Share { logs: [f64; 2], trust: Trust },
+    /// `(y - mean)²`.
+    Normal { mean: f64, trust: Trust },
     /// Adds `(y - mean)² weight` to the sum of its kind.
     Shared { kind: usize, mean: f64, weight: f64 },
+}
+
+/// Variance of a reading over that with the doubt of a replay [1], and half its logarithm [nats].
+#[derive(Debug, Clone, Copy)]
+struct Trust {
+    share: f64,
+    half_log: f64,
+}
+
+impl Trust {
+    fn new(variance: f64, doubt: f64) -> Self {
+        let share = variance / (variance + doubt);
+        Self { share, half_log: 0.5 * share.ln() }
+    }
 }
 
 /// Values of all readings, measured or drawn.
@@ -87,8 +133,28 @@ impl ReadingValues {
     }
 }
 
+/// Values with the weights of their experiments, ready to be compared with many predictions.
+#[derive(Debug)]
+pub(super) struct WeightedValues<'a> {
+    values: &'a ReadingValues,
+    groups: Vec<WeightedGroup<'a>>,
+    /// Readings that share a fitted scatter: index and weight.
+    shared: Vec<(usize, f64)>,
+}
+
+#[derive(Debug)]
+struct WeightedGroup<'a> {
+    group: &'a Group,
+    /// Index, weight, and weights of the distance over the grid.
+    readings: Vec<(usize, f64, &'a OverGrid)>,
+    /// Sum of the constants.
+    constant: OverGrid,
+}
+
 impl Data {
-    pub fn new(experiments: &[Experiment]) -> Self {
+    /// The readings of experiments; `base` are the predictions of the base model, whose Monte Carlo
+    /// variance all explanations share.
+    pub fn new(experiments: &[Experiment], base: &[PredictedReading]) -> Self {
         let mut kinds: Vec<&'static str> = Vec::new();
         let mut readings = Vec::new();
         for (experiment, one) in experiments.iter().enumerate() {
@@ -112,7 +178,12 @@ impl Data {
             })
         };
         let prior = (0..kinds.len()).map(|kind| PRIOR_SCATTER[usize::from(!counted(kind))].powi(2)).collect();
-        Self { readings, kinds, prior, experiments: experiments.len() }
+        let is_share =
+            |datum: &Datum| experiments[datum.experiment].readings[datum.place].quantity.is_share();
+        let grouped: Vec<_> =
+            readings.iter().zip(base).map(|(datum, base)| grouped(datum, base, is_share(datum))).collect();
+        let (groups, known) = groups(&readings, &grouped, kinds.len());
+        Self { readings, kinds, prior, experiments: experiments.len(), groups, known }
     }
 
     /// The measured values.
@@ -132,64 +203,111 @@ impl Data {
     }
 
     pub fn prepare(&self, predicted: &[PredictedReading]) -> PreparedReadings {
-        let row = |(datum, one): (&Datum, &PredictedReading)| {
-            let one = &existing(one, datum.value);
-            match datum.noise {
-                Noise::Counted(stated) => {
-                    let (p, count) = share(one, stated);
-                    let constant = count * (1.0 - p).ln();
-                    let slope = count * p.ln() - constant;
-                    PreparedReading::Share { slope, constant: constant - 0.5 * (stated / count).ln(), count }
-                }
-                Noise::Stated(error) => {
-                    let variance = error * error + one.variance;
-                    PreparedReading::Normal {
-                        mean: one.value,
-                        half: 0.5 / variance,
-                        constant: -0.5 * variance.ln(),
-                    }
-                }
-                Noise::Shared { kind, factor } => {
+        let row = |((datum, known), one): ((&Datum, &Option<KnownError>), &PredictedReading)| {
+            let one = existing(one, datum.value);
+            match (datum.noise, known) {
+                (Noise::Shared { kind, factor }, _) => {
                     PreparedReading::Shared { kind, mean: one.value, weight: 1.0 / factor }
+                }
+                (Noise::Counted(count), _) => {
+                    let p = away_from_edges(one.value);
+                    let trust = Trust::new(p * (1.0 - p) / count, one.doubt);
+                    PreparedReading::Share { logs: [p.ln(), (1.0 - p).ln()], trust }
+                }
+                (Noise::Stated(error), known) => {
+                    let own = known.as_ref().map_or(error * error, |known| known.reading.own);
+                    PreparedReading::Normal { mean: one.value, trust: Trust::new(own, one.doubt) }
                 }
             }
         };
-        PreparedReadings { rows: self.readings.iter().zip(predicted).map(row).collect() }
+        let rows = self.readings.iter().zip(&self.known).zip(predicted).map(row).collect();
+        PreparedReadings { rows }
+    }
+
+    /// Values with the weights of their experiments.
+    pub fn weighted<'a>(&'a self, values: &'a ReadingValues, weights: &[f64]) -> WeightedValues<'a> {
+        let mut groups: Vec<WeightedGroup<'a>> = self
+            .groups
+            .iter()
+            .map(|group| WeightedGroup { group, readings: Vec::new(), constant: [0.0; GRID] })
+            .collect();
+        let mut shared = Vec::new();
+        for (index, times) in self.inside(weights) {
+            let Some(known) = &self.known[index] else {
+                shared.push((index, times));
+                continue;
+            };
+            let density = known.density(values.value[index]);
+            let group = &mut groups[known.group];
+            group.readings.push((index, times, &density.weight));
+            group.constant.iter_mut().zip(&density.constant).for_each(|(sum, one)| *sum += times * one);
+        }
+        WeightedValues { values, groups, shared }
     }
 
     /// Log likelihood of values under predictions, each experiment with its weight [nats].
     pub fn score(&self, prepared: &PreparedReadings, values: &ReadingValues, weights: &[f64]) -> f64 {
-        let mut score = 0.0;
+        self.score_weighted(prepared, &self.weighted(values, weights))
+    }
+
+    /// The same of weighted values.
+    pub fn score_weighted(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> f64 {
+        let known = weighted.groups.iter().filter(|one| !one.readings.is_empty());
+        let known: f64 =
+            known.map(|one| one.group.log_mean(&one.likelihood(prepared, weighted.values))).sum();
+        known + self.score_unstated(prepared, weighted)
+    }
+
+    /// Log likelihood of the readings that share a fitted scatter [nats].
+    fn score_unstated(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> f64 {
         let mut sums = [(0.0, 0.0); KINDS];
-        for (index, times) in self.inside(weights) {
-            let value = values.value[index];
-            match prepared.rows[index] {
-                PreparedReading::Share { slope, constant, count } => {
-                    score += times * (slope * value + constant + count * values.entropy[index]);
-                }
-                PreparedReading::Normal { mean, half, constant } => {
-                    score += times * (constant - half * (value - mean).powi(2));
-                }
-                PreparedReading::Shared { kind, mean, weight } => {
-                    let sum = &mut sums[kind.min(KINDS - 1)];
-                    sum.0 += times;
-                    sum.1 += times * weight * (value - mean).powi(2);
+        for (index, times) in &weighted.shared {
+            if let PreparedReading::Shared { kind, mean, weight } = prepared.rows[*index] {
+                let sum = &mut sums[kind.min(KINDS - 1)];
+                sum.0 += times;
+                sum.1 += times * weight * (weighted.values.value[*index] - mean).powi(2);
+            }
+        }
+        let of = |((count, sum), prior): ((f64, f64), &f64)| {
+            let variance: f64 = (sum + prior) / (count + 1.0);
+            if count > 0.0 { -0.5 * (count + 1.0) * variance.ln() } else { 0.0 }
+        };
+        sums.into_iter().zip(&self.prior).map(of).sum()
+    }
+
+    /// Log density of the readings of each experiment under predictions, with the scatter that the
+    /// experiments with weights tell [nats]: of one without a weight its predictive density.
+    pub fn log_scores(
+        &self,
+        prepared: &PreparedReadings,
+        values: &ReadingValues,
+        weights: &[f64],
+    ) -> Vec<f64> {
+        let mut scores = vec![0.0; self.experiments];
+        let all = self.weighted(values, weights);
+        let told = all.groups.iter().map(|one| one.group.probabilities(&one.likelihood(prepared, values)));
+        let told: Vec<OverGrid> = told.map(|one| one.map(f64::ln)).collect();
+        let unstated = self.unstated(prepared, values, weights);
+        for (experiment, score) in scores.iter_mut().enumerate() {
+            let mut only = vec![0.0; self.experiments];
+            only[experiment] = 1.0;
+            let own = self.weighted(values, &only);
+            for (one, told) in own.groups.iter().zip(&told).filter(|(one, _)| !one.readings.is_empty()) {
+                let likelihood = one.likelihood(prepared, values);
+                *score += log_sum(&std::array::from_fn(|place| told[place] + likelihood[place]));
+            }
+            for (index, _) in &own.shared {
+                if let PreparedReading::Shared { kind, mean, weight } = prepared.rows[*index] {
+                    let variance = unstated[kind].powi(2) / weight;
+                    *score -= 0.5 * variance.ln() + 0.5 * (values.value[*index] - mean).powi(2) / variance;
                 }
             }
         }
-        for ((count, sum), prior) in sums.into_iter().zip(&self.prior).filter(|((count, _), _)| *count > 0.0)
-        {
-            let variance = (sum + prior) / (count + 1.0);
-            score -= 0.5 * (count + 1.0) * f64::ln(variance);
-        }
-        score
+        scores
     }
 
-    /// Largest gain of any other predictions [nats]: infinite where a scatter is fitted.
+    /// Largest gain of any other predictions [nats].
     pub fn room(&self, predicted: &[PredictedReading], weights: &[f64]) -> f64 {
-        if self.inside(weights).any(|(i, _)| matches!(self.readings[i].noise, Noise::Shared { .. })) {
-            return f64::INFINITY;
-        }
         let exact =
             |(datum, one): (&Datum, &PredictedReading)| PredictedReading { value: datum.value, ..*one };
         let exact: Vec<PredictedReading> = self.readings.iter().zip(predicted).map(exact).collect();
@@ -197,33 +315,64 @@ impl Data {
         score(&exact) - score(predicted)
     }
 
-    /// Fitted scatter of each kind under predictions [1].
-    pub fn scatter(&self, predicted: &[PredictedReading], weights: &[f64]) -> Vec<f64> {
+    /// The scatter that is left about predictions.
+    pub fn scatter(&self, predicted: &[PredictedReading], weights: &[f64]) -> FittedScatter {
+        let (prepared, values) = (self.prepare(predicted), self.values());
+        let mean = |one: &WeightedGroup<'_>| {
+            let probabilities = one.group.probabilities(&one.likelihood(&prepared, &values));
+            probabilities.iter().zip(&one.group.squares).map(|(p, square)| p * square).sum()
+        };
+        FittedScatter {
+            unstated: self.unstated(&prepared, &values, weights),
+            between: self.weighted(&values, weights).groups.iter().map(mean).collect(),
+        }
+    }
+
+    /// A sentence on each kind of readings that scatter as much as their errors again, or more.
+    pub fn scatter_notes(&self, scatter: &FittedScatter) -> Vec<String> {
+        let note = |(group, square): (&Group, &f64)| {
+            let name = self.kinds[group.kind];
+            let deviation = if group.counted { 0.5 * square.sqrt() } else { square.sqrt() };
+            let of = if group.counted { "their counts (at a share of one half)" } else { "their errors" };
+            (*square >= group.unit).then(|| {
+                format!("Readings of {name} scatter from run to run by {deviation:.2e} beyond {of}: all causes are judged with it.")
+            })
+        };
+        self.groups.iter().zip(&scatter.between).filter_map(note).collect()
+    }
+
+    /// Fitted scatter of each kind without errors and counts [1].
+    fn unstated(&self, prepared: &PreparedReadings, values: &ReadingValues, weights: &[f64]) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.kinds.len()];
         for (index, _) in self.inside(weights) {
-            let (datum, one) = (&self.readings[index], &predicted[index]);
-            if let Noise::Shared { kind, factor } = datum.noise {
+            if let PreparedReading::Shared { kind, mean, weight } = prepared.rows[index] {
                 sums[kind].0 += 1.0;
-                sums[kind].1 += (datum.value - existing(one, datum.value).value).powi(2) / factor;
+                sums[kind].1 += (values.value[index] - mean).powi(2) * weight;
             }
         }
         let scatter = |((count, sum), prior): ((f64, f64), &f64)| ((sum + prior) / (count + 1.0)).sqrt();
         sums.into_iter().zip(&self.prior).map(scatter).collect()
     }
 
-    /// Variance of a reading about a prediction [1]; `scatter` is that of each kind.
-    pub fn variance(&self, index: usize, one: &PredictedReading, scatter: &[f64]) -> f64 {
-        match self.readings[index].noise {
+    /// Variance of a reading about a prediction [1].
+    pub fn variance(&self, index: usize, one: &PredictedReading, scatter: &FittedScatter) -> f64 {
+        let known = self.known[index].as_ref();
+        let between = known.and_then(|known| scatter.between.get(known.group)).copied().unwrap_or(0.0);
+        let own = known.map_or(GroupedReading { own: 0.0, with: 0.0, misfit: 0.0 }, |known| known.reading);
+        let variance = match self.readings[index].noise {
             Noise::Counted(count) => {
-                let (p, count) = share(one, count);
-                p * (1.0 - p) / count
+                let p = away_from_edges(one.value);
+                p * (1.0 - p) / count * (1.0 + (count - 1.0).max(0.0) * (between + own.with))
             }
-            Noise::Stated(error) => error * error + one.variance,
-            Noise::Shared { kind, factor } => factor * scatter[kind].powi(2) + one.variance,
-        }
+            Noise::Stated(_) => own.own + between * own.with,
+            Noise::Shared { kind, factor } => {
+                factor * scatter.unstated.get(kind).copied().unwrap_or(0.0).powi(2)
+            }
+        };
+        variance + one.doubt
     }
 
-    /// Chi-square of the readings with a known error, and their number.
+    /// Chi-square of the readings with a known error, as stated, and their number.
     pub fn chi_square(&self, predicted: &[PredictedReading], weights: &[f64]) -> (f64, usize) {
         let is_known = |index: &usize| !matches!(self.readings[*index].noise, Noise::Shared { .. });
         let known = self.inside(weights).map(|(index, _)| index).filter(is_known);
@@ -231,19 +380,19 @@ impl Data {
             let value = self.readings[index].value;
             let one = &existing(&predicted[index], value);
             let centre = match self.readings[index].noise {
-                Noise::Counted(count) => share(one, count).0,
+                Noise::Counted(_) => away_from_edges(one.value),
                 _ => one.value,
             };
-            (value - centre).powi(2) / self.variance(index, one, &[])
+            (value - centre).powi(2) / self.variance(index, one, &FittedScatter::default())
         };
         known.fold((0.0, 0), |(sum, count), index| (sum + term(index), count + 1))
     }
 
-    /// Values as predictions would give them, with a new error each; `scatter` is that of each kind.
+    /// Values as predictions would give them, with a new error and a new scatter each.
     pub fn draw(
         &self,
         predicted: &[PredictedReading],
-        scatter: &[f64],
+        scatter: &FittedScatter,
         random: &mut ChaCha8Rng,
     ) -> ReadingValues {
         let mut one = |(index, datum): (usize, &Datum)| {
@@ -251,9 +400,13 @@ impl Data {
             let normal: f64 = StandardNormal.sample(random);
             match datum.noise {
                 Noise::Counted(count) => {
-                    let p =
-                        (one.value + one.variance.sqrt() * normal).clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
-                    let drawn = Binomial::new(count.round() as u64, p).map(|law| law.sample(random));
+                    let p = away_from_edges(one.value);
+                    // Of a beta distribution with the variance beyond that of the count.
+                    let binomial = p * (1.0 - p) / count;
+                    let beyond = (self.variance(index, one, scatter) - binomial) / (p * (1.0 - p));
+                    let size = (1.0 - beyond) / beyond;
+                    let run = Beta::new(p * size, (1.0 - p) * size).map_or(p, |law| law.sample(random));
+                    let drawn = Binomial::new(count.round() as u64, run).map(|law| law.sample(random));
                     drawn.map_or(p, |drawn| drawn as f64 / count.round())
                 }
                 _ => one.value + self.variance(index, one, scatter).sqrt() * normal,
@@ -263,21 +416,97 @@ impl Data {
     }
 }
 
+impl KnownError {
+    fn density(&self, value: f64) -> &Density {
+        let caught = value * self.reading.own;
+        // To half a particle.
+        let none_or_all = caught < 0.5 || caught > self.reading.own - 0.5;
+        &self.densities[usize::from(none_or_all)]
+    }
+}
+
+impl WeightedGroup<'_> {
+    /// Log likelihood of its readings for each scatter of the grid [nats].
+    fn likelihood(&self, prepared: &PreparedReadings, values: &ReadingValues) -> OverGrid {
+        let mut sums = self.constant;
+        for (index, times, weights) in &self.readings {
+            let value = values.value[*index];
+            let (distance, trust) = match prepared.rows[*index] {
+                PreparedReading::Share { logs: [p, q], trust } => {
+                    (-value * p - (1.0 - value) * q - values.entropy[*index], trust)
+                }
+                PreparedReading::Normal { mean, trust } => ((value - mean).powi(2), trust),
+                PreparedReading::Shared { .. } => continue,
+            };
+            let [distance, constant] = [times * trust.share * distance, times * trust.half_log];
+            for (sum, weight) in sums.iter_mut().zip(*weights) {
+                *sum += constant - distance * weight;
+            }
+        }
+        sums
+    }
+}
+
+/// What a group needs of a reading with a stated error or a count; none for others.
+fn grouped(datum: &Datum, base: &PredictedReading, is_share: bool) -> Option<GroupedReading> {
+    let existing = existing(base, datum.value);
+    let misfit = (datum.value - existing.value).powi(2);
+    match datum.noise {
+        Noise::Shared { .. } => None,
+        Noise::Counted(count) => {
+            let p = away_from_edges(existing.value);
+            let single = p * (1.0 - p);
+            Some(GroupedReading { own: count, with: existing.variance / single, misfit: misfit / single })
+        }
+        Noise::Stated(error) => {
+            // By the measured value alone, those that came out small would weigh most.
+            let middle = 0.5 * (datum.value + existing.value).clamp(0.0, 2.0);
+            let with = if is_share { 4.0 * middle * (1.0 - middle) } else { 1.0 };
+            Some(GroupedReading { own: error * error + existing.variance, with, misfit })
+        }
+    }
+}
+
+/// The groups of readings, and each reading in its group.
+fn groups(
+    readings: &[Datum],
+    grouped: &[Option<GroupedReading>],
+    kinds: usize,
+) -> (Vec<Group>, Vec<Option<KnownError>>) {
+    let mut groups = Vec::new();
+    let mut known: Vec<Option<KnownError>> = vec![None; readings.len()];
+    for (kind, counted) in (0..kinds).flat_map(|kind| [(kind, false), (kind, true)]) {
+        let is_member =
+            |datum: &Datum| datum.kind == kind && matches!(datum.noise, Noise::Counted(_)) == counted;
+        let members = || {
+            let all = readings.iter().zip(grouped).enumerate().filter(|(_, (datum, _))| is_member(datum));
+            all.filter_map(|(index, (_, one))| Some((index, (*one)?)))
+        };
+        let all: Vec<GroupedReading> = members().map(|(_, one)| one).collect();
+        if all.is_empty() {
+            continue;
+        }
+        let group = Group::new(kind, counted, &all);
+        for (index, reading) in members() {
+            let densities = group.densities(&reading);
+            known[index] = Some(KnownError { group: groups.len(), reading, densities });
+        }
+        groups.push(group);
+    }
+    (groups, known)
+}
+
 /// A prediction that can be compared: where the model says that nothing happens that could be
 /// measured, as no rebound, it is as wrong as it could be.
 fn existing(one: &PredictedReading, measured: f64) -> PredictedReading {
     if one.value.is_finite() {
         return *one;
     }
-    PredictedReading {
-        value: if measured > 0.5 { 0.0 } else { 1.0 },
-        variance: 0.0,
-        particles: one.particles,
-    }
+    let value = if measured > 0.5 { 0.0 } else { 1.0 };
+    PredictedReading { value, variance: 0.0, doubt: 0.0, particles: one.particles }
 }
 
-/// A predicted share away from 0 and 1, and the count reduced by the prediction's own error.
-fn share(one: &PredictedReading, count: f64) -> (f64, f64) {
-    let p = one.value.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
-    (p, count / (1.0 + one.variance * count / (p * (1.0 - p))))
+/// A predicted share away from 0 and 1.
+fn away_from_edges(share: f64) -> f64 {
+    share.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN)
 }

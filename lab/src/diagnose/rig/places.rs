@@ -7,7 +7,7 @@ use crate::diagnose::part::Part;
 /// With `sliding-to-rolling` a reading jumps where the critical angle passes its angle: only
 /// between two such angles the law is right.
 const OF_A_NUMBER: usize = 20;
-const OF_AN_EFFECT: usize = 80;
+const OF_AN_EFFECT: usize = 48;
 const SIDE: usize = 6;
 /// Places of a range with three or more parameters.
 const HALTON_PLACES: usize = 48;

@@ -2,8 +2,8 @@
 //!
 //! Population Monte Carlo: normal draws about the fit are weighted by the likelihood over the
 //! density that they were drawn from; the next generation is drawn with the mean and covariance of
-//! the weighted ones. The prior is even over the search ranges. A misfit that is left, and few
-//! readings for a fitted scatter, widen the likelihood by a factor on its variance.
+//! the weighted ones. The prior is even over the search ranges. A misfit that is left
+//! is a scatter between runs, which the likelihood has.
 
 use nalgebra::{DMatrix, DVector};
 use rand_chacha::ChaCha8Rng;
@@ -38,8 +38,8 @@ pub(super) struct Posterior {
 }
 
 impl Posterior {
-    /// Draws about the fit; `widened` is the factor on the variance of the likelihood.
-    pub fn new(study: &RigStudy<'_>, additions: &[RigAddition], weights: &[f64], widened: f64) -> Self {
+    /// Draws about the fit.
+    pub fn new(study: &RigStudy<'_>, additions: &[RigAddition], weights: &[f64]) -> Self {
         let centre: Vec<f64> = additions.iter().flat_map(|addition| addition.at.clone()).collect();
         if centre.is_empty() {
             return Self::default();
@@ -53,7 +53,7 @@ impl Posterior {
                 return (f64::NEG_INFINITY, None);
             };
             let prepared = study.data.prepare(&predicted);
-            (study.data.score(&prepared, &study.data.values(), weights) / widened, Some(prepared))
+            (study.data.score(&prepared, &study.data.values(), weights), Some(prepared))
         };
         let summit = evaluate(&centre).0;
         let guess = |place: usize| guess(&|at| evaluate(at).0, &centre, place, summit);

@@ -85,7 +85,8 @@ impl PredictionTable {
 impl TabledCandidate {
     /// The best place and its log likelihood [nats].
     pub fn best(&self, data: &Data, values: &ReadingValues, weights: &[f64]) -> (f64, &TabledPlace) {
-        let scored = self.places.iter().map(|place| (data.score(&place.prepared, values, weights), place));
+        let weighted = data.weighted(values, weights);
+        let scored = self.places.iter().map(|place| (data.score_weighted(&place.prepared, &weighted), place));
         scored.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, &self.places[0]))
     }
 

@@ -12,13 +12,12 @@ use super::super::record::{
 };
 use super::super::sentences::{Words, fit_sentence, found, hint, is_refuted};
 use super::super::verdict::not_examined;
-use super::MISFIT;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
 use super::choice::{DISTINGUISHABLE_GAIN, RigChoice, RigRound, RigStudy, Scored};
 use super::gain::{HeldOutExperiments, predict_file};
 use super::next::{NextExperiment, table};
-use super::noise::Noise;
+use super::noise::{FittedScatter, Noise};
 use super::prediction_table::predict;
 use crate::dataset::RigMeasurements;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
@@ -135,23 +134,6 @@ fn probability(round: &RigRound, one: &Scored) -> f64 {
     (one.gain - most).exp() / total
 }
 
-/// Factor on the variance of the likelihood by a misfit that the additions leave.
-///
-/// # Errors
-/// Why an impact cannot be decided.
-pub(super) fn widened(
-    study: &RigStudy<'_>,
-    additions: &[RigAddition],
-    weights: &[f64],
-) -> Result<f64, PredictionError> {
-    let predicted = predict(study.forward, additions)?;
-    let parameters: usize = additions.iter().map(|addition| addition.axes.len()).sum();
-    let (chi_square, readings) = study.data.chi_square(&predicted, weights);
-    let freedom = readings.saturating_sub(parameters).max(1) as f64;
-    let p = p_of(chi_square, freedom);
-    Ok(if readings > 0 && p < MISFIT { (chi_square / freedom).max(1.0) } else { 1.0 })
-}
-
 fn p_of(chi_square: f64, freedom: f64) -> f64 {
     ChiSquared::new(freedom).map_or(1.0, |law| law.sf(chi_square))
 }
@@ -213,7 +195,7 @@ impl RigFindings<'_> {
             readings: self.rows(&base, &extended, &scatter),
             errors: self.errors(&base, &extended),
             next_table: table(&self.next),
-            notes: file.notes.clone(),
+            notes: [file.notes.clone(), study.data.scatter_notes(&scatter)].concat(),
             not_carried: self.not_carried,
             next: self.next,
             extended: self.text,
@@ -258,7 +240,7 @@ impl RigFindings<'_> {
                 continue;
             }
             let reading = &self.study.forward.experiments()[datum.experiment].readings[datum.place];
-            let error = data.variance(index, &base[index], &[]).sqrt();
+            let error = data.variance(index, &base[index], &FittedScatter::default()).sqrt();
             all.push(LargeMisfit {
                 line: reading.line,
                 observable: data.kinds[datum.kind],
@@ -350,7 +332,12 @@ impl RigFindings<'_> {
         Ok(most.map_or("captured", |kind| data.kinds[kind]))
     }
 
-    fn rows(&self, base: &[PredictedReading], extended: &[PredictedReading], scatter: &[f64]) -> Vec<RigRow> {
+    fn rows(
+        &self,
+        base: &[PredictedReading],
+        extended: &[PredictedReading],
+        scatter: &FittedScatter,
+    ) -> Vec<RigRow> {
         let finite = |one: &PredictedReading| one.value.is_finite().then_some(one.value);
         let row = |(index, datum): (usize, &super::noise::Datum)| {
             let experiment = &self.study.forward.experiments()[datum.experiment];
