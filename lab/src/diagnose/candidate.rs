@@ -23,10 +23,10 @@ pub(super) enum Class {
     Law,
     /// A constant shift.
     Level,
-    /// A curve over a column.
+    /// A curve over a column that no law knows.
     Curve,
-    /// A surface over two columns.
-    Surface,
+    /// A curve over an input of laws, without a law, or a surface over two columns.
+    Lawless,
     /// A mistake in the numbers, an instrument or a geometry.
     Rival,
     /// Scatter, groups, captures at a constant rate.
@@ -34,13 +34,22 @@ pub(super) enum Class {
 }
 
 impl Class {
+    /// Of a curve over these columns.
+    fn of_columns(columns: impl Iterator<Item = usize>, data: &DataSplit) -> Self {
+        match columns.collect::<Vec<_>>()[..] {
+            [] => Self::Level,
+            [column] if !data.covariates[column].input => Self::Curve,
+            _ => Self::Lawless,
+        }
+    }
+
     /// Prior probability that data need an addition of this class, over that they do not [1].
     pub fn prior(self) -> f64 {
         match self {
             Self::Law => 0.5,
             Self::Number | Self::Noise => 0.2,
             Self::Curve | Self::Rival => 0.1,
-            Self::Level | Self::Surface => 0.03,
+            Self::Level | Self::Lawless => 0.03,
         }
     }
 }
@@ -61,13 +70,11 @@ pub(super) enum Candidate {
 }
 
 impl Candidate {
-    pub fn class(&self) -> Class {
+    pub fn class(&self, data: &DataSplit) -> Class {
         match self {
             Self::Part(Part::Effect(_)) => Class::Law,
             Self::Part(Part::LawParameter(_)) => Class::Number,
-            Self::Curve { sides: [None, None], .. } => Class::Level,
-            Self::Curve { sides: [Some(_), Some(_)], .. } => Class::Surface,
-            Self::Curve { .. } => Class::Curve,
+            Self::Curve { sides, .. } => Class::of_columns(sides.iter().flatten().copied(), data),
             Self::ScatterTrend { .. } | Self::BackgroundCapture => Class::Noise,
         }
     }
@@ -125,14 +132,10 @@ impl Addition {
         }
     }
 
-    pub fn class(&self) -> Class {
+    pub fn class(&self, data: &DataSplit) -> Class {
         match self {
-            Self::Part { part, .. } => Candidate::Part(part.part).class(),
-            Self::Curve(curve) => match curve.form.sides.len() {
-                0 => Class::Level,
-                1 => Class::Curve,
-                _ => Class::Surface,
-            },
+            Self::Part { part, .. } => Candidate::Part(part.part).class(data),
+            Self::Curve(curve) => Class::of_columns(curve.form.sides.iter().map(|side| side.0), data),
             Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Class::Noise,
         }
     }

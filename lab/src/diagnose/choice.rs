@@ -194,6 +194,10 @@ impl CauseChoice {
         let structure = structure(&explanations);
         let (data, shared) = (data.clone(), SharedErrors::default());
         let mut choice = Self { data, explanations, discoveries, structure, shared, state };
+        // The scatter about what is named, without the rest of the explanation.
+        let mut named = choice.hypothesis(&choice.data);
+        named.fit_scatter(&choice.data.search);
+        choice.state.scatter = named.scatter;
         choice.shared = choice.shared_errors(&choice.data);
         choice
     }

@@ -49,12 +49,8 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
     };
     let [e_n, e_t, captures] = Observable::ALL.map(|one| measured(&one));
     let rows = base.evaluate(&*data.search, base.offsets());
-    let stated = rows.stated_chi_square().is_some() && base.scatter.iter().all(|one| *one <= SMALLEST_SCATTER);
-    Evidence {
-        base: base.search_score(),
-        readings: e_n.max(e_t).max(captures),
-        stated: stated || e_n + e_t == 0.0,
-    }
+    let stated = rows.stated_chi_square().is_some() || e_n + e_t == 0.0;
+    Evidence { base: base.search_score(), readings: e_n.max(e_t).max(captures), stated }
 }
 
 impl<'a> ImpactSearch<'a> {
@@ -74,11 +70,18 @@ impl<'a> ImpactSearch<'a> {
             let log_prior = if ground.is_rival() { surprise(Class::Rival, self.readings) } else { 0.0 };
             let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
             let scores = ground.scores(&hypothesis);
+            let freedom = ground.freedom + self.beyond_stated(&hypothesis);
             let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };
-            Explanation { keys, fitted, scores, freedom: ground.freedom, log_prior }
+            Explanation { keys, fitted, scores, freedom, log_prior }
         };
         let is_start = |(place, ground): &(usize, &Ground)| *place == 0 || ground.is_rival();
         self.grounds.iter().enumerate().filter(is_start).map(start).collect()
+    }
+
+    /// Number of parameters of a scatter beyond stated errors.
+    fn beyond_stated(&self, hypothesis: &Hypothesis<'_>) -> f64 {
+        let found = hypothesis.scatter.iter().any(|one| *one > 2.0 * SMALLEST_SCATTER);
+        if self.evidence.stated && found { 1.0 } else { 0.0 }
     }
 
     /// The explanation with a candidate as it was fitted in the round.
@@ -100,7 +103,13 @@ impl<'a> ImpactSearch<'a> {
     fn refitted(&self, of: &ImpactExplanation<'a>, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
         let ground = &self.grounds[of.fitted.ground];
         let before = ground.scores(&of.fitted.hypothesis);
-        new.fitted.hypothesis.fit_with_discrepancy();
+        // With random draws a fit of all takes long, and the last addition is fitted.
+        if new.fitted.hypothesis.parts.iter().any(|part| part.part.is_stochastic()) {
+            new.fitted.hypothesis.fit_scatter(&ground.data.search);
+            new.fitted.hypothesis.fit_discrepancy();
+        } else {
+            new.fitted.hypothesis.fit_with_discrepancy();
+        }
         let hypothesis = &new.fitted.hypothesis;
         if of.fitted.hypothesis.parts.is_empty() {
             return self.with_or_without_remainder(new);
@@ -117,7 +126,8 @@ impl<'a> ImpactSearch<'a> {
     fn with_or_without_remainder(&self, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
         let ground = &self.grounds[new.fitted.ground];
         let hypothesis = &new.fitted.hypothesis;
-        let own = ground.freedom + hypothesis.freedom() + f64::from(u8::from(hypothesis.background_capture != 0.0));
+        let rate = f64::from(u8::from(hypothesis.background_capture != 0.0));
+        let own = ground.freedom + hypothesis.freedom() + rate + self.beyond_stated(hypothesis);
         let alone = ground.scores(&hypothesis.without_discrepancy());
         let with = ground.scores(hypothesis);
         let all = own + hypothesis.discrepancy_freedom;
@@ -166,12 +176,12 @@ impl<'a> Explained for ImpactSearch<'a> {
         let round = CandidateRound::new(hypothesis);
         let list = candidates(hypothesis, round.is_few());
         let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
-        list.iter().for_each(|one| *counts.entry(one.class()).or_default() += 1);
+        list.iter().for_each(|one| *counts.entry(one.class(hypothesis.data)).or_default() += 1);
         let scored = round.score(&list, self.progress);
         let prior = |class: Class| surprise(class, counts.get(&class).copied().unwrap_or(1));
         let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
         let beside = inside.map(|one| {
-            let log_prior = prior(one.addition.class());
+            let log_prior = prior(one.addition.class(hypothesis.data));
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();

@@ -141,10 +141,11 @@ pub fn diagnose_with_draws(
         return Ok(found);
     }
     // What rows refute that it has not seen is not named.
-    let refuted = found.0.findings.into_iter().map(|finding| finding.cause).collect();
+    let Diagnosis { findings, gain, gains, .. } = found.0;
     let (mut diagnosis, extended, draws) =
         examined(&study.without_causes(), &data, &whole, task, options, draws)?;
-    diagnosis.refuted = refuted;
+    diagnosis.refuted = findings.into_iter().map(|finding| finding.cause).collect();
+    (diagnosis.gain, diagnosis.gains) = (gain, gains);
     diagnosis.verdict = sentences::sentences(&diagnosis);
     Ok((diagnosis, extended, draws))
 }

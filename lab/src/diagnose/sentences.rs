@@ -1,7 +1,7 @@
 //! The sentences of a verdict. Those of impacts and of a rig differ in some words.
 
 use super::constants::{LEAST_CERTAINTY, REFUTED};
-use super::record::{Calibration, Diagnosis, Finding, Fit, FitTest, Gain, LargeMisfit, Unexplained};
+use super::record::{Calibration, Diagnosis, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained};
 
 /// With fewer rows the verdict warns that effects may go undetected.
 const WARNED_ROWS: usize = 60;
@@ -28,13 +28,13 @@ pub(super) fn is_refuted(fit: &Fit) -> bool {
 pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     let rows = diagnosis.rows.used;
     let mut text = fit_sentence(&diagnosis.fit);
-    if let Some(rival) = diagnosis.rivals.first().filter(|_| diagnosis.findings.is_empty()) {
+    if let Some(rival) = diagnosis.rivals.first().filter(|rival| is_best(rival, diagnosis)) {
         text += &format!("{} No physics is named before this is checked.", rival.explanation);
         return text;
     }
     text += &found(diagnosis, &IMPACTS, || nothing_found(diagnosis));
-    if let Some(rival) = diagnosis.rivals.first() {
-        text += &format!(" Check this first: {}", rival.explanation);
+    if let Some(Rival { explanation, probability, .. }) = diagnosis.rivals.first() {
+        text += &format!(" Check this, too ({}): {explanation}", probability_words(*probability));
     }
     text += &diagnosis.gain.as_ref().map_or(String::new(), gain_sentence);
     if let Some(Unexplained { measured, expected }) = &diagnosis.unexplained_capture {
@@ -54,6 +54,11 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
         text += &format!(" With only {rows} rows, an effect of usual size may go undetected.");
     }
     text
+}
+
+/// Whether the most probable explanation is a rival of physics.
+fn is_best(rival: &Rival, diagnosis: &Diagnosis) -> bool {
+    diagnosis.explanations.first().is_some_and(|best| best.causes.contains(&rival.id))
 }
 
 /// The causes and the changed numbers, or what `nothing` says.

@@ -2,7 +2,7 @@
 
 use super::candidate::{Addition, ScoredCandidate};
 use super::choice::CauseChoice;
-use super::constants::NAMED;
+use super::constants::{LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
@@ -136,8 +136,9 @@ fn rivals(choice: &CauseChoice) -> Vec<Rival> {
     let mut all: Vec<Rival> = Vec::new();
     for one in choice.listed() {
         let Some((id, question)) = &one.rival else { continue };
-        if all.iter().all(|known| known.id != *id) {
-            let (id, explanation, probability) = (id.clone(), question.clone(), choice.probability(id));
+        let probability = choice.probability(id);
+        if probability > 1.0 - LISTED && all.iter().all(|known| known.id != *id) {
+            let (id, explanation) = (id.clone(), question.clone());
             all.push(Rival { id, observable, gain: one.gain, lead: one.gain - best, probability, explanation });
         }
     }
