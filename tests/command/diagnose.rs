@@ -146,7 +146,7 @@ fn whole_groups_are_held_out() {
         let (draw, day) = (ImpactRng::new(8, key), key % 60);
         let layer_thickness = 8e-4 * draw.uniform(103);
         let impact =
-            Impact { normal_speed: 1.5 + 2.0 * draw.uniform(100), diameter: 8e-5, ..Impact::default() };
+            Impact { normal_speed: 3.0 + 3.0 * draw.uniform(100), diameter: 8e-5, ..Impact::default() };
         let plain = model.resolve(0, &impact, draw).unwrap().normal_restitution;
         let shared = 0.05 * noise(ImpactRng::new(9, day), 0);
         let e_n = plain * (0.4 + 0.6 * (-layer_thickness / 2e-4).exp()) + shared + 0.02 * noise(draw, 200);

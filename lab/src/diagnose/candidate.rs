@@ -46,10 +46,11 @@ impl Class {
     /// Prior probability that data need an addition of this class, over that they do not [1].
     pub fn prior(self) -> f64 {
         match self {
-            Self::Law => 0.5,
-            Self::Number | Self::Noise => 0.2,
-            Self::Curve | Self::Rival => 0.1,
-            Self::Level | Self::Lawless => 0.03,
+            Self::Law => 1.0,
+            Self::Noise => 0.5,
+            Self::Number => 0.3,
+            Self::Curve | Self::Rival => 0.2,
+            Self::Level | Self::Lawless => 0.06,
         }
     }
 }

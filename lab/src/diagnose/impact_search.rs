@@ -44,8 +44,10 @@ pub(super) struct ImpactSearch<'a> {
 /// Evidence on the rows of the search.
 pub(super) fn evidence(data: &DataSplit) -> Evidence {
     let base = Hypothesis::base(data);
+    // Every impact of a class of captures is one.
     let measured = |one: &Observable| {
-        data.search.iter().filter(|&&row| one.measured(&data.rows[row]).is_some()).count() as f64
+        let rows = data.search.iter().map(|&row| &data.rows[row]).filter(|row| one.measured(row).is_some());
+        rows.map(|row| if *one == Observable::Capture { row.impacts } else { 1.0 }).sum::<f64>()
     };
     let [e_n, e_t, captures] = Observable::ALL.map(|one| measured(&one));
     let rows = base.evaluate(&*data.search, base.offsets());

@@ -8,9 +8,6 @@ use nearwall::model::Model;
 use nearwall::normal::NormalLaw;
 use nearwall::tangential::TangentialLaw;
 
-/// A coordinate nearer than this to 0 or 1 is at a bound.
-const AT_BOUND: f64 = 0.005;
-
 /// A parameter of the base model's own laws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LawParameter {
@@ -129,9 +126,9 @@ impl FittedPart {
         Self { part, at: vec![0.5; axes.len()], axes, intervals: Vec::new(), inseparable: Vec::new() }
     }
 
-    /// Whether a parameter is at the bound of its range.
+    /// Whether a parameter is at the end of its search range, and could lie beyond.
     pub fn at_bound(&self) -> bool {
-        self.at.iter().any(|at| !(AT_BOUND..=1.0 - AT_BOUND).contains(at))
+        self.axes.iter().zip(&self.at).any(|(axis, at)| axis.is_at_end(*at))
     }
 
     /// Makes the parameters that are left at their defaults free.

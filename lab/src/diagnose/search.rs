@@ -16,12 +16,22 @@ pub(super) struct SearchAxis {
     low: f64,
     high: f64,
     logarithmic: bool,
+    /// Whether the parameter could lie beyond each end.
+    open: [bool; 2],
 }
+
+/// A coordinate nearer than this to 0 or 1 is at an end.
+const AT_END: f64 = 0.005;
 
 impl SearchAxis {
     /// A linear axis.
     pub fn linear(low: f64, high: f64) -> Self {
-        Self { low, high, logarithmic: false }
+        Self { low, high, logarithmic: false, open: [true; 2] }
+    }
+
+    /// Whether a coordinate is at an end beyond which the parameter could lie.
+    pub fn is_at_end(self, at: f64) -> bool {
+        (self.open[0] && at < AT_END) || (self.open[1] && at > 1.0 - AT_END)
     }
 
     /// The axis of a parameter; `range` gives the least and largest value of an input in the data. `None` if the input
@@ -30,11 +40,11 @@ impl SearchAxis {
         let (least, most) = parameter.bounds;
         let within = |low: f64, high: f64, logarithmic| {
             let (low, high) = (low.max(least), high.min(most));
-            (low < high).then_some(Self { low, high, logarithmic })
+            (low < high).then_some(Self { low, high, logarithmic, open: [low > least, high < most] })
         };
         match parameter.search {
-            Search::Linear(low, high) => Some(Self::linear(low, high)),
-            Search::Log(low, high) => Some(Self { low, high, logarithmic: true }),
+            Search::Linear(low, high) => within(low, high, false),
+            Search::Log(low, high) => within(low, high, true),
             Search::InputRange(input) => range(input).and_then(|[low, high]| within(low, high, false)),
             Search::InputWidth(input) => {
                 range(input).and_then(|[low, high]| within((high - low) / 50.0, 4.0 * (high - low), true))

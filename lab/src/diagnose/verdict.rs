@@ -41,6 +41,9 @@ pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f
     let mut all: Vec<Misfit> = choice.singles().filter_map(one).collect();
     let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| name(a).cmp(&name(b))));
+    // The same curve beside another noise.
+    let mut seen = std::collections::BTreeSet::new();
+    all.retain(|misfit| seen.insert(name(misfit)));
     all.truncate(MOST_MISFITS);
     all
 }

@@ -49,7 +49,7 @@ pub struct Arguments {
     /// Seed of the split into fitted and held-out rows; the same seed gives the same bytes
     #[arg(long, default_value_t = 1)]
     seed: u64,
-    /// Accepted share of false discoveries
+    /// Accepted share of false alarms: of columns that shape the residuals, and of causes at a rig
     #[arg(long, default_value_t = 0.05)]
     level: f64,
     /// Column map that renames and converts the columns of a laboratory's own file

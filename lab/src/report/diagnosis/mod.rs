@@ -221,8 +221,9 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
     page.note(format!(
         "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over every \
          column. Chi-square is minus twice the log likelihood; its fall is reduced by what the number of parameters gains by \
-         chance. A candidate is accepted if so large a fall happens by chance in at most a share of {level} of data sets, \
-         corrected for the number of candidates. Seed {seed} draws the rows that are held out and the resampled data sets. \
+         chance. Explanations are compared by their evidence, which counts parameters and prior probabilities; a cause is \
+         named from a probability of 0.8 on, unless rows that it has not seen are predicted worse. Seed {seed} draws the \
+         rows that are held out. \
          docs/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);

@@ -217,12 +217,12 @@ fn a_cause_says_how_sure_it_is() {
         &[
             "sliding-to-rolling e_t tangential-compliance, curve over day 5.2 4.8e6 86 %",
             "With it chi-square falls by 40.5. That is 5.2 sigma: it happens by chance once in 4.8e6 data sets",
-            "named in 86 % of resampled data sets. These data cannot tell it from tangential-compliance or curve over day.",
+            "named in 86 % of resampled data sets. These data do not exclude tangential-compliance or curve over day.",
             "named in only 41 % of resampled data sets: take it as a hint",
             "The shape of this law fits",
             "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance once in 100000",
             "Only the product of friction and strength is known.",
-            "gas-lift +4.0 7.39",
+            "gas-lift +4.0 0.02",
             "measure e_t at v_t = 0.2 m/s and at v_t = 9 m/s",
             "The 6 values of burst were noticed as groups",
             "e_t 0.02 45 %",
@@ -273,7 +273,7 @@ fn slips_of_input_stand_above_the_causes() {
         &text,
         &[
             "Input: These numbers fit if d were twice as large: is the radius given? With it chi-square of e_t falls by 60, 20 \
-             more than with the best cause.",
+             more than with the best cause; its probability is 0.90.",
         ],
     );
     assert!(text.find("Before physics is blamed").unwrap() < text.find("Cause 1").unwrap());
