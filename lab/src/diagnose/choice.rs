@@ -78,9 +78,7 @@ impl FoundParts {
     fn of(hypothesis: &Hypothesis<'_>, named: &[String]) -> Self {
         let data = hypothesis.data;
         let part = |one: &&FittedPart| named.contains(&one.part.name());
-        let curve = |one: &&ColumnCurve| {
-            named.contains(&Addition::Curve((*one).clone()).key(data))
-        };
+        let curve = |one: &&ColumnCurve| named.contains(&Addition::Curve((*one).clone()).key(data));
         Self {
             parts: hypothesis.parts.iter().filter(part).cloned().collect(),
             curves: hypothesis.curves.iter().filter(curve).cloned().collect(),
@@ -135,7 +133,8 @@ fn probability(explanations: &[FoundExplanation], cause: &str) -> f64 {
 fn structure(explanations: &[FoundExplanation]) -> [f64; 2] {
     let best = explanations.first().map_or(&[][..], |best| best.additions.as_slice());
     let beside = |count: usize| {
-        let larger = explanations.iter().filter(|one| one.rival.is_none() && one.additions.len() == count + 1);
+        let larger =
+            explanations.iter().filter(|one| one.rival.is_none() && one.additions.len() == count + 1);
         let last = larger.filter_map(|one| one.additions.last()).filter(|one| one.addition.is_systematic());
         last.map(|one| one.q_value).fold(1.0, f64::min)
     };
@@ -147,8 +146,7 @@ impl CauseChoice {
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
         let (grounds, readings) = grounds(data, task.groups, task.text, evidence);
-        let search =
-            ImpactSearch::new((&grounds, readings), evidence, task.effort.refitted, task.progress);
+        let search = ImpactSearch::new((&grounds, readings), evidence, task.effort.refitted, task.progress);
         let mut visited = explore(&search, search.starts(), task.effort.expanded);
         temper(&mut visited, &grounds);
         let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
@@ -232,10 +230,12 @@ impl CauseChoice {
 
     /// Additions that were fitted alone beside the base model.
     pub fn singles(&self) -> impl Iterator<Item = &ScoredCandidate> {
-        self.explanations.iter().filter(|one| one.rival.is_none()).filter_map(|one| match &one.additions[..] {
-            [single] => Some(single),
-            _ => None,
-        })
+        self.explanations.iter().filter(|one| one.rival.is_none()).filter_map(
+            |one| match &one.additions[..] {
+                [single] => Some(single),
+                _ => None,
+            },
+        )
     }
 
     /// The errors that groups share beside the causes.

@@ -26,7 +26,7 @@ pub(super) const LISTED: f64 = 0.95;
 /// How far the search among explanations goes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Effort {
-    /// Largest number of explanations that are expanded.
+    /// Expansions of explanations, in that of the base model.
     pub expanded: usize,
     /// Explanations of each expansion of which all parameters are fitted together.
     pub refitted: usize,
@@ -34,4 +34,4 @@ pub(super) struct Effort {
 
 /// Of the choice that is told, and of those that only measure the gain.
 pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3 };
-pub(super) const QUICK: Effort = Effort { expanded: 3, refitted: 1 };
+pub(super) const QUICK: Effort = Effort { expanded: 2, refitted: 1 };

@@ -74,6 +74,9 @@ pub(super) trait Explained {
 
     fn evidence(&self) -> Evidence;
 
+    /// Effort of an expansion, in that of the base model.
+    fn effort(&self, of: &Explanation<Self::Fitted>) -> usize;
+
     /// The explanation with one addition more, each promising one fitted.
     fn extended(&self, of: &Explanation<Self::Fitted>) -> Vec<Explanation<Self::Fitted>>;
 
@@ -85,8 +88,8 @@ pub(super) trait Explained {
     ) -> Vec<Explanation<Self::Fitted>>;
 }
 
-/// All explanations that the search visits from `starts` with at most `most` expansions, the one with the
-/// largest evidence first.
+/// All explanations that the search visits from `starts` with an effort of at most `most` and one expansion,
+/// the one with the largest evidence first.
 pub(super) fn explore<K: Explained>(
     kind: &K,
     starts: Vec<Explanation<K::Fitted>>,
@@ -96,9 +99,11 @@ pub(super) fn explore<K: Explained>(
     let mut visited = Vec::new();
     starts.into_iter().for_each(|start| add(&mut visited, start, evidence));
     let mut expanded: Vec<Vec<String>> = Vec::new();
-    while expanded.len() < most
+    let mut spent = 0;
+    while spent < most
         && let Some(next) = next(&visited, &expanded, evidence)
     {
+        spent += kind.effort(&next);
         expanded.push(next.keys.clone());
         let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
         let reduced = kind.reduced(&next, &known);
@@ -165,6 +170,10 @@ mod tests {
 
         fn evidence(&self) -> Evidence {
             evidence(100.0, true)
+        }
+
+        fn effort(&self, _: &Explanation<()>) -> usize {
+            1
         }
 
         fn extended(&self, of: &Explanation<()>) -> Vec<Explanation<()>> {

@@ -56,9 +56,8 @@ impl FindingBuilder<'_> {
         let cause = self.name(winner);
         let observable = self.observable(winner);
         let rivals = self.indistinguishable(&cause);
-        let advice = |rival: &String| {
-            advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival)
-        };
+        let advice =
+            |rival: &String| advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival);
         let mut finding = Finding {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
@@ -130,7 +129,8 @@ impl FindingBuilder<'_> {
         let mut all: Vec<Alternative> = Vec::new();
         for one in self.choice.explanations.iter().filter(|one| !own(one) && one.rival.is_none()) {
             let open = one.causes.iter().filter(|name| !in_best(name));
-            for name in open.filter(|name| !all.iter().any(|known| known.cause == **name)).collect::<Vec<_>>() {
+            for name in open.filter(|name| !all.iter().any(|known| known.cause == **name)).collect::<Vec<_>>()
+            {
                 all.push(Alternative {
                     cause: name.clone(),
                     score_difference: gain - one.gain,

@@ -127,7 +127,9 @@ impl<'a> CandidateRound<'a> {
             None => tested.p_value.max(chance_of_gain(raw)),
         };
         let p_value = match &addition {
-            Addition::Part { part, .. } if part.part.is_stochastic() => p_value.min(chance_of_mean(&differences)),
+            Addition::Part { part, .. } if part.part.is_stochastic() => {
+                p_value.min(chance_of_mean(&differences))
+            }
             _ => p_value,
         };
         // Random signs of few rows do not tell candidates apart that more rows would.

@@ -118,7 +118,8 @@ fn with_input_errors(data: &DataSplit, name: &str, evidence: Evidence) -> Option
         );
         let changed = DataSplit { rows: rows.into(), noise: noise.into(), ..data.clone() };
         let key = format!("artefact:error-of-{name}");
-        let ground = Ground { key, question: Some(question), data: changed, freedom: 1.0, ..Ground::plain(data) };
+        let ground =
+            Ground { key, question: Some(question), data: changed, freedom: 1.0, ..Ground::plain(data) };
         Some((worth(&ground, evidence), ground))
     };
     let best = SHARES.into_iter().filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));

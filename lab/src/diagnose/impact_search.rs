@@ -17,6 +17,12 @@ use super::hypothesis::Hypothesis;
 use super::likelihood::SMALLEST_SCATTER;
 use super::observable::Observable;
 
+/// Prior odds of each addition after the first, over those of the one before [1].
+const FURTHER: f64 = 0.3;
+
+/// Effort of an expansion beside an effect with random draws, in that of the base model.
+const RANDOM_DRAWS: usize = 5;
+
 /// An explanation of impacts, fitted.
 #[derive(Debug, Clone)]
 pub(super) struct FittedImpacts<'a> {
@@ -134,7 +140,8 @@ impl<'a> ImpactSearch<'a> {
         let with = ground.scores(hypothesis);
         let all = own + hypothesis.discrepancy_freedom;
         let worth = |scores: &[f64], freedom| self.evidence.gain(scores.iter().sum(), freedom);
-        (new.scores, new.freedom) = if worth(&with, all) > worth(&alone, own) { (with, all) } else { (alone, own) };
+        (new.scores, new.freedom) =
+            if worth(&with, all) > worth(&alone, own) { (with, all) } else { (alone, own) };
         new
     }
 
@@ -170,6 +177,11 @@ impl<'a> Explained for ImpactSearch<'a> {
         self.evidence
     }
 
+    fn effort(&self, of: &ImpactExplanation<'a>) -> usize {
+        let stochastic = of.fitted.hypothesis.parts.iter().any(|part| part.part.is_stochastic());
+        if stochastic { RANDOM_DRAWS } else { 1 }
+    }
+
     fn extended(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
         if !self.grounds[of.fitted.ground].open {
             return Vec::new();
@@ -183,7 +195,8 @@ impl<'a> Explained for ImpactSearch<'a> {
         let prior = |class: Class| surprise(class, counts.get(&class).copied().unwrap_or(1));
         let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
         let beside = inside.map(|one| {
-            let log_prior = prior(one.addition.class(hypothesis.data));
+            let further = of.fitted.found.len() as f64 * FURTHER.ln();
+            let log_prior = prior(one.addition.class(hypothesis.data)) + further;
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();

@@ -40,9 +40,9 @@ mod observable;
 mod part;
 mod probability;
 mod profile;
+mod reading;
 mod record;
 pub mod rig;
-mod reading;
 mod score_test;
 mod search;
 mod sentences;
@@ -57,10 +57,9 @@ mod verdict;
 
 pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use record::{
-    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate, ExplanationFound,
-    Finding, Fit,
-    FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement, NotExamined, Options, Rival, Rows,
-    Sample, SampleRow, ScatterFound, Unexplained,
+    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate,
+    ExplanationFound, Finding, Fit, FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement,
+    NotExamined, Options, Rival, Rows, Sample, SampleRow, ScatterFound, Unexplained,
 };
 pub use unselected::read_measurements;
 

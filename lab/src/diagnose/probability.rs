@@ -48,7 +48,9 @@ impl Probabilities {
 
     /// Adds the probabilities of one draw from its log evidences [nats].
     fn add(&mut self, evidence: &[f64]) {
-        let Some((best, most)) = evidence.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)) else { return };
+        let Some((best, most)) = evidence.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1)) else {
+            return;
+        };
         let shares: Vec<f64> = evidence.iter().map(|one| (one - most).exp()).collect();
         let total: f64 = shares.iter().sum();
         self.of.iter_mut().zip(shares).for_each(|(sum, share)| *sum += share / total / DRAWS as f64);

@@ -92,7 +92,11 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
 
 /// A probability in words.
 fn probability_words(probability: f64) -> String {
-    if probability > 0.995 { "probability above 0.99".to_owned() } else { format!("probability {probability:.2}") }
+    if probability > 0.995 {
+        "probability above 0.99".to_owned()
+    } else {
+        format!("probability {probability:.2}")
+    }
 }
 
 /// A warning where few resamples name the first cause.

@@ -26,7 +26,8 @@ pub(super) fn skewed(data: &DataSplit) -> Ground {
         let residuals: Vec<Option<f64>> = rows.pairs(observable).map(|pair| pair.map(residual)).collect();
         let scatter = rows.scatter[observable as usize].max(SMALLEST_SCATTER);
         let even = best(&residuals, scatter, (0..WIDTHS).map(|step| [step; 2]));
-        let below = best(&residuals, scatter, (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two])));
+        let below =
+            best(&residuals, scatter, (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two])));
         let gain = below.iter().zip(&even).map(|(below, even)| below - even);
         slope.iter_mut().zip(gain).for_each(|(sum, gain)| *sum += gain);
     }

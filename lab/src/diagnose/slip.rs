@@ -116,7 +116,9 @@ fn root(reading: &mut Reading) -> Option<f64> {
 /// An input that is off by a factor, as in a wrong calibration.
 fn by_a_factor(name: &'static str) -> OtherReading {
     let question = move |factor: f64| {
-        format!("These numbers fit if {name} were {factor:.2} times what is given: check its unit and calibration.")
+        format!(
+            "These numbers fit if {name} were {factor:.2} times what is given: check its unit and calibration."
+        )
     };
     OtherReading {
         question: Box::new(question),

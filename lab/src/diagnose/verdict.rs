@@ -142,7 +142,14 @@ fn rivals(choice: &CauseChoice) -> Vec<Rival> {
         let probability = choice.probability(id);
         if probability > 1.0 - LISTED && all.iter().all(|known| known.id != *id) {
             let (id, explanation) = (id.clone(), question.clone());
-            all.push(Rival { id, observable, gain: one.gain, lead: one.gain - best, probability, explanation });
+            all.push(Rival {
+                id,
+                observable,
+                gain: one.gain,
+                lead: one.gain - best,
+                probability,
+                explanation,
+            });
         }
     }
     all.sort_by(|a, b| b.probability.total_cmp(&a.probability));

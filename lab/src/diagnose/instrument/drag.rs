@@ -54,7 +54,6 @@ fn slow_down(row: &mut Measurement, _: &mut Offset, constant: f64) -> Option<f64
     let scaled = |one: Reading, slope: f64| Reading {
         value: one.value * leaves / arrives,
         error: one.error.map(|error| error * slope),
-        ..one
     };
     row.e_n = Some(scaled(e_n, 1.0 / arrives));
     let slope = if row.e_t.is_some() { leaves / arrives.powi(2) } else { 1.0 / arrives };

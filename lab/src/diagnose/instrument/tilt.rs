@@ -48,8 +48,8 @@ fn rotate(row: &mut Measurement, _: &mut Offset, angle: f64) -> Option<f64> {
     let out = [e_n.value * v_n * cos - e_t.value * v_t * sin, e_t.value * v_t * cos + e_n.value * v_n * sin];
     let slope = [v_n / n, v_t / t];
     let error = |reading: Reading, slope: f64| reading.error.map(|error| error * slope.abs());
-    row.e_n = Some(Reading { value: out[0] / n, error: error(e_n, slope[0]), ..e_n });
-    row.e_t = Some(Reading { value: out[1] / t, error: error(e_t, slope[1]), ..e_t });
+    row.e_n = Some(Reading { value: out[0] / n, error: error(e_n, slope[0]) });
+    row.e_t = Some(Reading { value: out[1] / t, error: error(e_t, slope[1]) });
     let slope = (slope[0] * slope[1]).abs();
     (slope > 0.0 && slope.is_finite()).then(|| slope.ln())
 }

@@ -38,7 +38,9 @@ pub(super) fn noted_as_stuck(data: &DataSplit) -> Option<OtherReading> {
     data.search.iter().find(|&&row| data.rows[row].captured.is_some_and(|share| share > 0.5))?;
     let limit = least(data, |row| row.impact.normal_speed)?;
     let question = |limit: f64| {
-        format!("These numbers fit if rebounds slower than {limit:.3} m/s were noted as stuck: how is sticking told?")
+        format!(
+            "These numbers fit if rebounds slower than {limit:.3} m/s were noted as stuck: how is sticking told?"
+        )
     };
     Some(limited("artefact:noted-as-stuck", limit, Box::new(question), |row| row.impact.normal_speed, true))
 }

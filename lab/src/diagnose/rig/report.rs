@@ -280,14 +280,11 @@ impl RigFindings<'_> {
                 .collect(),
             adds: curve.values.iter().map(|value| rounded(*value)).collect(),
         });
-        let alternatives = round
-            .others
-            .iter()
-            .map(|other| Alternative {
-                cause: other.addition.name(),
-                score_difference: gain - other.gain,
-                probability: probability(round, other),
-            });
+        let alternatives = round.others.iter().map(|other| Alternative {
+            cause: other.addition.name(),
+            score_difference: gain - other.gain,
+            probability: probability(round, other),
+        });
         let observable = self.observable(addition)?;
         let mut finding = Finding {
             cause: addition.name(),

@@ -101,7 +101,8 @@ fn add_explanations(page: &mut Page, diagnosis: &Diagnosis) {
     }
     let row = |one: &ExplanationFound| {
         let causes: Vec<String> = one.causes.iter().map(|cause| cause_title(cause)).collect();
-        let causes = if causes.is_empty() { "the base model as it is".to_owned() } else { causes.join(" and ") };
+        let causes =
+            if causes.is_empty() { "the base model as it is".to_owned() } else { causes.join(" and ") };
         vec![causes, probability(one.probability)]
     };
     page.heading("How likely is which explanation?");

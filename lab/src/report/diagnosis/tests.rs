@@ -88,7 +88,11 @@ fn finding(cause: &str) -> Finding {
         p_value: 1e-8,
         q_value: 2.1e-7,
         parameters: BTreeMap::from([("friction", value)]),
-        alternatives: vec![Alternative { cause: "gas-lift".into(), score_difference: 2.0, probability: 0.02 }],
+        alternatives: vec![Alternative {
+            cause: "gas-lift".into(),
+            score_difference: 2.0,
+            probability: 0.02,
+        }],
         indistinguishable_from: Vec::new(),
         measure_next: Vec::new(),
         curve: None,

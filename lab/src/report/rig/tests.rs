@@ -149,7 +149,11 @@ fn finding(cause: &str) -> Finding {
         p_value: 1e-8,
         q_value: 1e-8,
         parameters: BTreeMap::from([("temperature", value)]),
-        alternatives: vec![Alternative { cause: "level:capture".into(), score_difference: 4.0, probability: 0.0 }],
+        alternatives: vec![Alternative {
+            cause: "level:capture".into(),
+            score_difference: 4.0,
+            probability: 0.0,
+        }],
         indistinguishable_from: Vec::new(),
         measure_next: Vec::new(),
         curve: None,
