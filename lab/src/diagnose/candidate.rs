@@ -125,10 +125,10 @@ impl Addition {
         matches!(self, Self::Part { .. } | Self::Curve(_))
     }
 
-    /// Tells it from all other additions: a column may act on several observables.
+    /// Tells it from all other additions.
     pub fn key(&self, data: &DataSplit) -> String {
         match self {
-            Self::Curve(curve) => format!("{} on {}", self.name(data), curve.form.observable.name()),
+            Self::Curve(curve) => curve.form.key(data),
             _ => self.name(data),
         }
     }

@@ -1,6 +1,8 @@
 //! A choice among explanations on some rows, and the model file that follows from it.
 
-use super::candidate::{Addition, ScoredCandidate};
+use std::collections::BTreeSet;
+
+use super::candidate::ScoredCandidate;
 use super::constants::{Effort, LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
@@ -46,6 +48,13 @@ pub(super) struct FoundExplanation {
     pub gain: f64,
 }
 
+impl FoundExplanation {
+    /// Whether a cause or a rival takes part.
+    pub fn has(&self, cause: &str) -> bool {
+        self.causes.iter().any(|own| own == cause)
+    }
+}
+
 /// The result of a choice on the fitted rows of a [`DataSplit`].
 #[derive(Clone)]
 pub(super) struct CauseChoice {
@@ -55,7 +64,7 @@ pub(super) struct CauseChoice {
     pub explanations: Vec<FoundExplanation>,
     /// The additions that are named, in the order in which they joined.
     pub discoveries: Vec<ScoredCandidate>,
-    /// Smallest corrected p-value of a candidate beside the base model, and beside the best explanation.
+    /// Smallest corrected p-value of a candidate beside the base model, and beside what is named.
     pub structure: [f64; 2],
     /// Errors that groups share in the extended model.
     pub shared: SharedErrors,
@@ -78,7 +87,7 @@ impl FoundParts {
     fn of(hypothesis: &Hypothesis<'_>, named: &[String]) -> Self {
         let data = hypothesis.data;
         let part = |one: &&FittedPart| named.contains(&one.part.name());
-        let curve = |one: &&ColumnCurve| named.contains(&Addition::Curve((*one).clone()).key(data));
+        let curve = |one: &&ColumnCurve| named.contains(&one.form.key(data));
         Self {
             parts: hypothesis.parts.iter().filter(part).cloned().collect(),
             curves: hypothesis.curves.iter().filter(curve).cloned().collect(),
@@ -123,22 +132,23 @@ fn causes(one: &ImpactExplanation<'_>, ground: &Ground) -> Vec<String> {
     names
 }
 
-/// Probability that a cause takes part [1].
-fn probability(explanations: &[FoundExplanation], cause: &str) -> f64 {
-    let with = explanations.iter().filter(|one| one.causes.iter().any(|own| own == cause));
-    with.map(|one| one.probability).sum()
+/// Names in the order of their first appearance.
+pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+    let mut seen = BTreeSet::new();
+    names.filter(|name| seen.insert(*name)).cloned().collect()
 }
 
-/// Smallest corrected p-value of a candidate beside the base model, and beside the best explanation.
-fn structure(explanations: &[FoundExplanation]) -> [f64; 2] {
-    let best = explanations.first().map_or(&[][..], |best| best.additions.as_slice());
-    let beside = |count: usize| {
-        let larger =
-            explanations.iter().filter(|one| one.rival.is_none() && one.additions.len() == count + 1);
-        let last = larger.filter_map(|one| one.additions.last()).filter(|one| one.addition.is_systematic());
-        last.map(|one| one.q_value).fold(1.0, f64::min)
-    };
-    [beside(0), beside(best.len())]
+/// Probability that a cause takes part [1].
+fn probability(explanations: &[FoundExplanation], cause: &str) -> f64 {
+    explanations.iter().filter(|one| one.has(cause)).map(|one| one.probability).sum()
+}
+
+/// Smallest corrected p-value of a candidate beside these causes.
+fn smallest_beside(explanations: &[FoundExplanation], causes: &[String]) -> f64 {
+    let larger = explanations.iter().filter(|one| one.causes.len() == causes.len() + 1);
+    let beside = larger.filter(|one| one.rival.is_none() && causes.iter().all(|cause| one.has(cause)));
+    let last = beside.filter_map(|one| one.additions.last()).filter(|one| one.addition.is_systematic());
+    last.map(|one| one.q_value).fold(1.0, f64::min)
 }
 
 impl CauseChoice {
@@ -189,7 +199,9 @@ impl CauseChoice {
             if rival { Vec::new() } else { additions.iter().filter(named).cloned().collect() };
         let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
         let state = FoundParts::of(&hypothesis, &keys);
-        let structure = structure(&explanations);
+        let causes: Vec<String> = discoveries.iter().map(|one| one.addition.name(data)).collect();
+        let structure =
+            [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
         let (data, shared) = (data.clone(), SharedErrors::default());
         let mut choice = Self { data, explanations, discoveries, structure, shared, state };
         // The scatter about what is named, without the rest of the explanation.
@@ -207,8 +219,7 @@ impl CauseChoice {
 
     /// Share of the draws in which an explanation with this cause is the most likely one [1].
     pub fn certainty(&self, cause: &str) -> f64 {
-        let with = self.explanations.iter().filter(|one| one.causes.iter().any(|own| own == cause));
-        with.map(|one| one.first).sum()
+        self.explanations.iter().filter(|one| one.has(cause)).map(|one| one.first).sum()
     }
 
     /// The smallest number of explanations that hold 95 %, the most probable first.
@@ -224,8 +235,13 @@ impl CauseChoice {
 
     /// The most probable addition of this name.
     pub fn addition(&self, cause: &str) -> Option<&ScoredCandidate> {
-        let all = self.explanations.iter().flat_map(|one| &one.additions);
-        all.into_iter().find(|one| one.addition.name(&self.data) == cause)
+        let mut all = self.explanations.iter().flat_map(|one| &one.additions);
+        all.find(|one| one.addition.name(&self.data) == cause)
+    }
+
+    /// Whether a cause is in the most probable explanation.
+    pub fn is_in_best(&self, cause: &str) -> bool {
+        self.explanations.first().is_some_and(|best| best.has(cause))
     }
 
     /// Additions that were fitted alone beside the base model.

@@ -10,12 +10,6 @@ pub(super) const ROW_DRAWS: usize = 64;
 pub(super) const FIRST_SCATTER: Scatter = [0.1, 0.1];
 /// Resamples of a bootstrap of errors.
 pub(super) const BOOTSTRAP_RESAMPLES: usize = 1000;
-/// Resamples for the certainty of a cause.
-pub(super) const CERTAINTY_RESAMPLES: usize = 200;
-/// A resample names a cause that gains this share of what the best candidate does [1].
-pub(super) const NEARLY_BEST: f64 = 0.75;
-/// Least share of resamples that name a cause [1]; with a smaller one it is a hint.
-pub(super) const LEAST_CERTAINTY: f64 = 0.5;
 /// p-value at which a model is refuted [1].
 pub(super) const REFUTED: f64 = 0.01;
 /// Probability from which on a cause is named [1].

@@ -61,6 +61,11 @@ impl ColumnCurveForm {
         format!("unknown:{}", self.columns(data).join("*"))
     }
 
+    /// Tells it from all other curves: a column may act on several observables.
+    pub fn key(&self, data: &DataSplit) -> String {
+        format!("{} on {}", self.name(data), self.observable.name())
+    }
+
     /// The names of its columns.
     pub fn columns(&self, data: &DataSplit) -> Vec<String> {
         self.sides.iter().map(|(column, _)| data.covariates[*column].name.clone()).collect()

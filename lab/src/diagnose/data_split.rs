@@ -229,6 +229,30 @@ impl DataSplit {
         Self { covariates: covariates.into(), missing, ..Self::bare(&self.base, &rows, COARSE_DRAWS) }
     }
 
+    /// The rows of the search alone; all of them are fitted.
+    pub fn searched(&self) -> Self {
+        if self.search.len() == self.rows.len() {
+            return self.clone();
+        }
+        let places = &self.search;
+        let covariate = |one: &Covariate| Covariate {
+            values: one.values.at(places),
+            blank: places.iter().map(|&row| one.blank[row]).collect(),
+            ..one.clone()
+        };
+        let all: Vec<usize> = (0..places.len()).collect();
+        Self {
+            rows: places.iter().map(|&row| self.rows[row]).collect(),
+            covariates: self.covariates.iter().map(covariate).collect(),
+            noise: places.iter().map(|&row| self.noise[row]).collect(),
+            units: places.iter().map(|&row| self.units[row]).collect(),
+            search: all.clone(),
+            fit: all,
+            held_out: Vec::new(),
+            ..self.clone()
+        }
+    }
+
     /// Rows without columns, none of them fitted, for the errors of a finished model.
     pub fn bare(base: &Model, rows: &[Measurement], draws: usize) -> Self {
         Self {

@@ -55,7 +55,7 @@ impl<'a> ParameterLaw<'a> {
     fn new(hypothesis: &Hypothesis<'a>) -> Self {
         let rows = &hypothesis.data.fit;
         let units = hypothesis.data.unit_count_of(rows);
-        let stochastic = hypothesis.parts.iter().any(|part| part.part.is_stochastic());
+        let stochastic = hypothesis.is_stochastic();
         let covariance = |fit: &Hypothesis<'_>| Covariance::of(fit, rows, &steps(&first_errors(fit, rows)));
         let mut fit = hypothesis.clone();
         if !stochastic && units >= UNITS_FOR_DEFAULTS {

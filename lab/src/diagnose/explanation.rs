@@ -88,8 +88,8 @@ pub(super) trait Explained {
     ) -> Vec<Explanation<Self::Fitted>>;
 }
 
-/// All explanations that the search visits from `starts` with an effort of at most `most` and one expansion,
-/// the one with the largest evidence first.
+/// All explanations that the search visits from `starts`, the one with the largest evidence first. It expands
+/// until the effort reaches `most`.
 pub(super) fn explore<K: Explained>(
     kind: &K,
     starts: Vec<Explanation<K::Fitted>>,
@@ -107,8 +107,8 @@ pub(super) fn explore<K: Explained>(
         expanded.push(next.keys.clone());
         let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
         let reduced = kind.reduced(&next, &known);
-        let found = kind.extended(&next).into_iter().chain(reduced);
-        found.collect::<Vec<_>>().into_iter().for_each(|one| add(&mut visited, one, evidence));
+        let extended = kind.extended(&next);
+        extended.into_iter().chain(reduced).for_each(|one| add(&mut visited, one, evidence));
     }
     visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
     visited
@@ -120,13 +120,14 @@ fn next<F: Clone>(
     expanded: &[Vec<String>],
     evidence: Evidence,
 ) -> Option<Explanation<F>> {
-    let of = |one: &&Explanation<F>| evidence.of(one);
-    let best = visited.iter().map(|one| evidence.of(one)).fold(f64::NEG_INFINITY, f64::max);
     // The base model as it is comes first, whatever a rival gains.
-    let first = visited.iter().filter(|one| one.keys.is_empty() && expanded.is_empty());
-    let near = visited.iter().filter(|one| !expanded.contains(&one.keys) && of(one) > best - WINDOW);
-    let open = first.clone().chain(near.filter(|_| first.clone().next().is_none()));
-    open.max_by(|a, b| of(a).total_cmp(&of(b))).cloned()
+    if let Some(base) = visited.iter().find(|one| one.keys.is_empty() && expanded.is_empty()) {
+        return Some(base.clone());
+    }
+    let all: Vec<(f64, &Explanation<F>)> = visited.iter().map(|one| (evidence.of(one), one)).collect();
+    let best = all.iter().map(|(worth, _)| *worth).fold(f64::NEG_INFINITY, f64::max);
+    let open = all.iter().filter(|(worth, one)| *worth > best - WINDOW && !expanded.contains(&one.keys));
+    open.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, one)| (*one).clone())
 }
 
 /// Adds an explanation; of two with the same additions the better fit stays.
@@ -162,7 +163,7 @@ mod tests {
         assert!(evidence(5.0, false).gain(1e3, 4.0).is_infinite());
     }
 
-    /// Two additions that only together explain anything are not found; two that each explain a part are.
+    /// Additions a, b and c of which a and b are true.
     struct Planted;
 
     impl Explained for Planted {

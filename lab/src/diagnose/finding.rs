@@ -4,7 +4,7 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::{CauseChoice, FoundExplanation};
+use super::choice::{CauseChoice, distinct};
 use super::curve::ColumnCurve;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
@@ -87,8 +87,7 @@ impl FindingBuilder<'_> {
     fn final_curve(&self, winner: &ScoredCandidate) -> Option<&ColumnCurve> {
         let Addition::Curve(first) = &winner.addition else { return None };
         let data = self.hypothesis.data;
-        let key = |curve: &ColumnCurve| (curve.form.name(data), curve.form.observable);
-        self.hypothesis.curves.iter().find(|curve| key(curve) == key(first))
+        self.hypothesis.curves.iter().find(|curve| curve.form.key(data) == first.form.key(data))
     }
 
     /// The observable that a cause changes most, in units of the scatter.
@@ -122,20 +121,15 @@ impl FindingBuilder<'_> {
 
     /// Other causes, the most probable first.
     fn alternatives(&self, cause: &str) -> Vec<Alternative> {
-        let best = self.choice.explanations.first();
-        let own = |one: &FoundExplanation| one.causes.iter().any(|other| other == cause);
-        let in_best = |name: &String| best.is_some_and(|best| best.causes.contains(name));
-        let gain = best.map_or(0.0, |best| best.gain);
+        let choice = self.choice;
+        let gain = choice.explanations.first().map_or(0.0, |best| best.gain);
         let mut all: Vec<Alternative> = Vec::new();
-        for one in self.choice.explanations.iter().filter(|one| !own(one) && one.rival.is_none()) {
-            let open = one.causes.iter().filter(|name| !in_best(name));
-            for name in open.filter(|name| !all.iter().any(|known| known.cause == **name)).collect::<Vec<_>>()
-            {
-                all.push(Alternative {
-                    cause: name.clone(),
-                    score_difference: gain - one.gain,
-                    probability: self.choice.probability(name),
-                });
+        for one in choice.explanations.iter().filter(|one| !one.has(cause) && one.rival.is_none()) {
+            for name in one.causes.iter().filter(|name| !choice.is_in_best(name)) {
+                if all.iter().all(|known| known.cause != *name) {
+                    let (score_difference, probability) = (gain - one.gain, choice.probability(name));
+                    all.push(Alternative { cause: name.clone(), score_difference, probability });
+                }
             }
         }
         all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
@@ -145,14 +139,9 @@ impl FindingBuilder<'_> {
 
     /// Causes in whose stead this one stands, in the explanations that hold 95 %.
     fn indistinguishable(&self, cause: &str) -> Vec<String> {
-        let best = self.choice.explanations.first();
-        let in_best = |name: &String| best.is_some_and(|best| best.causes.contains(name));
-        let others = self.choice.listed().iter().filter(|one| !one.causes.iter().any(|own| own == cause));
-        let mut names: Vec<String> =
-            others.flat_map(|one| &one.causes).filter(|name| !in_best(name)).cloned().collect();
-        let mut seen = std::collections::BTreeSet::new();
-        names.retain(|name| seen.insert(name.clone()));
-        names
+        let others = self.choice.listed().iter().filter(|one| !one.has(cause));
+        let open = others.flat_map(|one| &one.causes).filter(|name| !self.choice.is_in_best(name));
+        distinct(open)
     }
 
     /// A curve of one column for the page.

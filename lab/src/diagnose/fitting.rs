@@ -195,7 +195,7 @@ impl<'a> CandidateRound<'a> {
         let (at, _) = descend(|at| cost(&joint, &at_new(at), &self.search), &start, 0.06, rounds);
         let joint = joint.with_coordinates(&at_new(&at));
         // With random draws the earlier parts are refitted only beside the one that joins.
-        if parts.is_empty() || joint.parts.iter().any(|part| part.part.is_stochastic()) {
+        if parts.is_empty() || joint.is_stochastic() {
             return split_last(joint);
         }
         // The earlier parts are refitted beside the new one.

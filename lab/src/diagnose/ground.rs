@@ -52,6 +52,12 @@ impl Ground {
     }
 }
 
+/// Inputs whose errors may be unknown to the file, and their size as a share of the value.
+const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
+const SHARES: [f64; 4] = [0.03, 0.07, 0.15, 0.3];
+/// Shares of gross errors beside the expected one [1].
+const RUBBISH: [f64; 2] = [0.1, 0.25];
+
 /// All grounds, the rows as they are first, and the number of other readings that were tried; `text`
 /// is the file of the base model. Of the other readings those stay that have more evidence than the
 /// rows as they are.
@@ -66,9 +72,18 @@ pub(super) fn grounds(
     if data.noise.iter().any(|offset| offset.gross > 0.0) {
         all.extend(RUBBISH.map(|share| with_rubbish(data, share)));
     }
-    all.extend(UNSTATED.iter().filter_map(|name| with_input_errors(data, name, evidence)));
+    // Of a large file the rows that are not searched are changed only for the readings that stay.
+    let searched = data.searched();
+    let unstated = UNSTATED.iter().filter(|name| may_have_errors(data, name)).filter_map(|name| {
+        let read = |data: &DataSplit, share: f64| with_input_errors(data, name, share);
+        best(data, &searched, SHARES.to_vec(), |_| Vec::new(), evidence, &read)
+    });
+    all.extend(unstated);
     let others: Vec<OtherReading> = slips(&data.base, text).into_iter().chain(readings(data)).collect();
-    all.extend(others.iter().filter_map(|other| best(data, other, evidence)));
+    all.extend(others.iter().filter_map(|other| {
+        let near = |value: f64| other.near(value);
+        best(data, &searched, other.values.clone(), near, evidence, &|data, value| read(data, other, value))
+    }));
     let skewed = skewed(data);
     all.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
     (all, others.len() + UNSTATED.len() + 1)
@@ -80,50 +95,47 @@ fn worth(ground: &Ground, evidence: Evidence) -> f64 {
     evidence.gain(score, ground.freedom)
 }
 
-/// The ground of a reading with its best parameter.
-fn best(data: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Ground> {
+/// The ground that `read` makes of the rows for the best of some values, and of others `near` that one;
+/// tried on the rows that are `searched`. `None` if the rows as they are have more evidence.
+fn best(
+    data: &DataSplit,
+    searched: &DataSplit,
+    values: Vec<f64>,
+    near: impl Fn(f64) -> Vec<f64>,
+    evidence: Evidence,
+    read: &dyn Fn(&DataSplit, f64) -> Option<Ground>,
+) -> Option<Ground> {
     let tried = |values: Vec<f64>| {
-        let grounds = values.into_iter().filter_map(|value| Some((value, read(data, other, value)?)));
-        let scored = grounds.map(|(value, ground)| (worth(&ground, evidence), value, ground));
-        scored.filter(|one| one.0.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
+        let scored = values.into_iter().filter_map(|at| Some((worth(&read(searched, at)?, evidence), at)));
+        scored.filter(|(worth, _)| worth.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    let first = tried(other.values.clone())?;
-    let finer = tried(other.near(first.1));
-    let (worth, _, ground) = finer.filter(|finer| finer.0 > first.0).unwrap_or(first);
-    (worth > 0.0).then_some(ground)
+    let first = tried(values)?;
+    let finer = tried(near(first.1)).filter(|finer| finer.0 > first.0);
+    let (worth, value) = finer.unwrap_or(first);
+    if worth > 0.0 { read(data, value) } else { None }
 }
 
-/// Inputs whose errors may be unknown to the file, and their size as a share of the value.
-const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
-const SHARES: [f64; 4] = [0.03, 0.07, 0.15, 0.3];
-/// Shares of gross errors beside the expected one [1].
-const RUBBISH: [f64; 2] = [0.1, 0.25];
+/// Whether an input varies and states no errors.
+fn may_have_errors(data: &DataSplit, name: &str) -> bool {
+    data.range(name).is_some() && data.rows.iter().all(|row| row.input_errors.of(name) <= 0.0)
+}
 
-/// The rows with errors of an input that the file does not state, of the size that fits best.
-fn with_input_errors(data: &DataSplit, name: &str, evidence: Evidence) -> Option<Ground> {
-    data.range(name)?;
-    if data.rows.iter().any(|row| row.input_errors.of(name) > 0.0) {
-        return None;
-    }
-    let of = |share: f64| {
-        let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
-        assume(&data.base, name, share, &mut rows, &mut noise)?;
-        let refused = |row: &&usize| data.base.check(rows[**row].wall, &rows[**row].impact).is_err();
-        if data.search.iter().any(|row| refused(&row)) {
-            return None;
-        }
-        let question = format!(
-            "These numbers fit if {name} had errors of {:.0} % that the file does not state: how well is it known?",
-            100.0 * share
-        );
-        let changed = DataSplit { rows: rows.into(), noise: noise.into(), ..data.clone() };
-        let key = format!("artefact:error-of-{name}");
-        let ground =
-            Ground { key, question: Some(question), data: changed, freedom: 1.0, ..Ground::plain(data) };
-        Some((worth(&ground, evidence), ground))
-    };
-    let best = SHARES.into_iter().filter_map(of).max_by(|a, b| a.0.total_cmp(&b.0));
-    best.filter(|(worth, _)| *worth > 0.0).map(|(_, ground)| ground)
+/// The rows with errors of an input that the file does not state, of a size as a share of the value.
+fn with_input_errors(data: &DataSplit, name: &str, share: f64) -> Option<Ground> {
+    let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
+    assume(&data.base, name, share, &mut rows, &mut noise)?;
+    let decided = |&row: &usize| data.base.check(rows[row].wall, &rows[row].impact).is_ok();
+    let question = format!(
+        "These numbers fit if {name} had errors of {:.0} % that the file does not state: how well is it known?",
+        100.0 * share
+    );
+    data.search.iter().all(decided).then(|| Ground {
+        key: format!("artefact:error-of-{name}"),
+        question: Some(question),
+        data: DataSplit { rows: rows.into(), noise: noise.into(), ..data.clone() },
+        freedom: 1.0,
+        ..Ground::plain(data)
+    })
 }
 
 /// The rows with a larger share of gross errors.

@@ -136,6 +136,11 @@ impl<'a> Hypothesis<'a> {
         Evaluation::new(self.data, &self.model(), rows, offsets, self.scatter)
     }
 
+    /// Whether an outcome is drawn at random.
+    pub fn is_stochastic(&self) -> bool {
+        self.parts.iter().any(|part| part.part.is_stochastic())
+    }
+
     /// The predictions of the rows of the search.
     pub fn forecast(&self) -> Forecast {
         Forecast::of_data(&self.model(), self.data, &self.data.search)

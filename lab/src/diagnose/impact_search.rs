@@ -110,20 +110,18 @@ impl<'a> ImpactSearch<'a> {
     /// The same with all parameters fitted together.
     fn refitted(&self, of: &ImpactExplanation<'a>, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
         let ground = &self.grounds[of.fitted.ground];
-        let before = ground.scores(&of.fitted.hypothesis);
         // With random draws a fit of all takes long, and the last addition is fitted.
-        if new.fitted.hypothesis.parts.iter().any(|part| part.part.is_stochastic()) {
+        if new.fitted.hypothesis.is_stochastic() {
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
             new.fitted.hypothesis.fit_discrepancy();
         } else {
             new.fitted.hypothesis.fit_with_discrepancy();
         }
-        let hypothesis = &new.fitted.hypothesis;
         if of.fitted.hypothesis.parts.is_empty() {
             return self.with_or_without_remainder(new);
         }
-        let gain = ground.scores(hypothesis).into_iter().zip(before).map(|(after, before)| after - before);
-        let scores: Vec<f64> = of.scores.iter().zip(gain).map(|(own, gain)| own + gain).collect();
+        let before = ground.scores(&of.fitted.hypothesis);
+        let scores = moved(&of.scores, &before, &ground.scores(&new.fitted.hypothesis));
         if scores.iter().sum::<f64>() > new.score() {
             new.scores = scores;
         }
@@ -152,16 +150,14 @@ impl<'a> ImpactSearch<'a> {
         }
         let noise = self.grounds.iter().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
         let count = noise.clone().count();
+        let before = self.grounds[0].scores(&of.fitted.hypothesis);
         let on = |(place, ground): (usize, &'a Ground)| {
             let mut new = of.clone();
             new.keys.push(ground.key.clone());
             new.fitted.ground = place;
             new.fitted.hypothesis.data = &ground.data;
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
-            let before = self.grounds[0].scores(&of.fitted.hypothesis);
-            let after = ground.scores(&new.fitted.hypothesis);
-            let gain = after.iter().zip(&before).map(|(after, before)| after - before);
-            new.scores = of.scores.iter().zip(gain).map(|(own, gain)| own + gain).collect();
+            new.scores = moved(&of.scores, &before, &ground.scores(&new.fitted.hypothesis));
             new.freedom += ground.freedom;
             new.log_prior += surprise(Class::Noise, count);
             new
@@ -178,8 +174,7 @@ impl<'a> Explained for ImpactSearch<'a> {
     }
 
     fn effort(&self, of: &ImpactExplanation<'a>) -> usize {
-        let stochastic = of.fitted.hypothesis.parts.iter().any(|part| part.part.is_stochastic());
-        if stochastic { RANDOM_DRAWS } else { 1 }
+        if of.fitted.hypothesis.is_stochastic() { RANDOM_DRAWS } else { 1 }
     }
 
     fn extended(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
@@ -236,6 +231,12 @@ impl<'a> Explained for ImpactSearch<'a> {
     }
 }
 
+/// Scores with what others gain from before to after [nats].
+fn moved(scores: &[f64], before: &[f64], after: &[f64]) -> Vec<f64> {
+    let changes = before.iter().zip(after);
+    scores.iter().zip(changes).map(|(own, (before, after))| own + (after - before)).collect()
+}
+
 /// Removes an addition from a hypothesis.
 fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit) {
     match addition {
@@ -244,8 +245,7 @@ fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit
             hypothesis.parts.retain(|own| own.part.name() != name);
         }
         Addition::Curve(curve) => {
-            let key = |one: &super::curve::ColumnCurve| (one.form.name(data), one.form.observable);
-            hypothesis.curves.retain(|own| key(own) != key(curve));
+            hypothesis.curves.retain(|own| own.form.key(data) != curve.form.key(data));
         }
         Addition::ScatterTrend(trend) => {
             hypothesis.scatter_trends.retain(|own| own.covariate != trend.covariate);

@@ -43,7 +43,7 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
     }
     let units = hypothesis.data.unit_count_of(rows);
     let mut freed = hypothesis.clone();
-    let stochastic = hypothesis.parts.iter().any(|part| part.part.is_stochastic());
+    let stochastic = hypothesis.is_stochastic();
     if !stochastic && units >= UNITS_FOR_DEFAULTS {
         freed.free_defaults();
         freed.polish(rows);

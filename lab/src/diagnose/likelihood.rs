@@ -485,16 +485,10 @@ mod tests {
     use super::*;
     use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-    const EXACT: Offset = Offset {
-        restitution: [0.0; 2],
-        capture: 0.0,
-        spread: 1.0,
-        variance: [0.0; 2],
-        uncertainty: [0.0; 2],
-        visible_from: f64::NEG_INFINITY,
-        noted: false,
-        gross: 0.0,
-    };
+    /// Without gross errors.
+    fn exact() -> Offset {
+        Offset { gross: 0.0, ..Offset::default() }
+    }
 
     fn prediction(e_n: f64, capture: f64, filling: usize) -> Prediction {
         Prediction { restitution: [e_n, 0.7], capture, weight: 1.0, reach: [0.0; 2], filling }
@@ -550,12 +544,12 @@ mod tests {
     fn a_rebound_without_an_outcome_scores_as_one() {
         let two = [prediction(0.5, 0.3, 0), prediction(0.2, 0.8, 0)];
         for predictions in [&two[..1], &two] {
-            let of = |row: &Measurement| score(row, predictions, &EXACT, [0.1; 2]);
+            let of = |row: &Measurement| score(row, predictions, &exact(), [0.1; 2]);
             assert_eq!(of(&row(Some(0.4), None, 1.0)), of(&row(Some(0.4), Some(0.0), 1.0)));
             // An average over the rebounds among several impacts says nothing about captures.
             assert!(of(&row(Some(0.4), None, 3.0)) > of(&row(Some(0.4), Some(0.0), 3.0)));
         }
-        let one = score(&row(Some(0.5), None, 1.0), &two[..1], &EXACT, [0.1; 2]);
+        let one = score(&row(Some(0.5), None, 1.0), &two[..1], &exact(), [0.1; 2]);
         let expected = (1.0 - (0.005 + 0.99 * 0.3_f64)).ln() + Normal::new(0.5, 0.1).unwrap().pdf(0.5).ln();
         assert!((one - expected).abs() < 1e-12, "{one}, {expected}");
     }
@@ -564,7 +558,7 @@ mod tests {
     #[test]
     fn a_missing_input_of_an_average_is_the_same_for_all_its_impacts() {
         let cold_or_hot = [prediction(0.6, 0.0, 0), prediction(0.2, 0.0, 1)];
-        let average = score(&row(Some(0.6), None, 25.0), &cold_or_hot, &EXACT, [0.1; 2]);
+        let average = score(&row(Some(0.6), None, 25.0), &cold_or_hot, &exact(), [0.1; 2]);
         let law = Normal::new(0.6, 0.02).unwrap();
         let expected = (0.5 * law.pdf(0.6) + 0.5 * law.pdf(1.0)).ln();
         assert!((average - expected).abs() < 1e-9, "{average}, {expected}");

@@ -147,9 +147,11 @@ pub struct Finding {
     pub chi_square: f64,
     /// Significance in standard deviations of a normal distribution, after correction for the number of candidates [1].
     pub sigma: f64,
-    /// Probability that the cause takes part in the explanation [1].
+    /// Probability that the cause takes part in the explanation [1]; at a rig the Akaike weight in its
+    /// round, which was not compared with planted sets.
     pub probability: f64,
-    /// Share of resampled data sets that name this cause [1].
+    /// Share of resampled data sets, or of random weights of the rows, in which an explanation with this
+    /// cause is the best [1].
     pub certainty: f64,
     /// p-value of the test that a free curve over its inputs fits no better; small values speak
     /// against the law's shape.

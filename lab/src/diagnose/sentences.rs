@@ -1,6 +1,6 @@
 //! The sentences of a verdict. Those of impacts and of a rig differ in some words.
 
-use super::constants::{LEAST_CERTAINTY, REFUTED};
+use super::constants::REFUTED;
 use super::record::{Calibration, Diagnosis, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained};
 
 /// With fewer rows the verdict warns that effects may go undetected.
@@ -12,12 +12,10 @@ pub(super) struct Words {
     pub subject: &'static str,
     /// What cannot tell causes apart.
     pub data: &'static str,
-    /// What is resampled.
-    pub sets: &'static str,
 }
 
 /// The words for measured impacts.
-const IMPACTS: Words = Words { subject: "model", data: "data", sets: "data sets" };
+const IMPACTS: Words = Words { subject: "model", data: "data" };
 
 /// Whether the base model is refuted by its own errors.
 pub(super) fn is_refuted(fit: &Fit) -> bool {
@@ -63,7 +61,7 @@ fn is_best(rival: &Rival, diagnosis: &Diagnosis) -> bool {
 
 /// The causes and the changed numbers, or what `nothing` says.
 pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce() -> String) -> String {
-    let Words { subject, data, .. } = words;
+    let Words { subject, data } = words;
     let cause = |finding: &Finding| {
         let probability = probability_words(finding.probability);
         let name = match finding.cause.split_once(':') {
@@ -99,18 +97,6 @@ fn probability_words(probability: f64) -> String {
     }
 }
 
-/// A warning where few resamples name the first cause.
-pub(super) fn hint(diagnosis: &Diagnosis, words: &Words) -> String {
-    match diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
-        None => String::new(),
-        Some(Finding { cause, certainty, .. }) => format!(
-            " {cause} is named in only {:.0} % of resampled {}: take it as a hint.",
-            100.0 * certainty,
-            words.sets
-        ),
-    }
-}
-
 /// What the test of fit says of the base model, where there are stated errors or replicates.
 pub(super) fn fit_sentence(fit: &Fit) -> String {
     let FitTest { against, chi_square, degrees_of_freedom, p_value } = &fit.base;
@@ -142,8 +128,7 @@ fn nothing_found(diagnosis: &Diagnosis) -> String {
     if !diagnosis.refuted.is_empty() {
         let causes = diagnosis.refuted.join(", ");
         return format!(
-            "{causes} would explain these data, but the model with it predicts rows worse that it has not seen: \
-             nothing is named."
+            "With {causes} the model predicts rows that it has not seen worse than without: nothing is named."
         );
     }
     if !diagnosis.undecided.is_empty() {

@@ -1,7 +1,7 @@
 //! Writes the record of a diagnosis of impacts.
 
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::CauseChoice;
+use super::choice::{CauseChoice, distinct};
 use super::constants::{LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
@@ -171,12 +171,8 @@ fn undecided(choice: &CauseChoice) -> Vec<String> {
     if !choice.discoveries.is_empty() || base.map(|one| one.probability).sum::<f64>() > 1.0 - NAMED {
         return Vec::new();
     }
-    let mut names: Vec<String> = Vec::new();
-    for name in choice.listed().iter().filter(|one| one.rival.is_none()).flat_map(|one| &one.causes) {
-        if !names.contains(name) {
-            names.push(name.clone());
-        }
-    }
+    let physics = choice.listed().iter().filter(|one| one.rival.is_none());
+    let mut names = distinct(physics.flat_map(|one| &one.causes));
     names.truncate(MOST_UNDECIDED);
     names
 }
@@ -189,13 +185,9 @@ pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
     let mut possible: Vec<&ScoredCandidate> =
         choice.singles().filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE).collect();
     possible.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
-    let mut names: Vec<String> = Vec::new();
-    for name in possible.iter().map(|candidate| candidate.addition.name(&choice.data)) {
-        // A column may explain e_n and e_t.
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
+    // A column may explain e_n and e_t.
+    let names: Vec<String> = possible.iter().map(|one| one.addition.name(&choice.data)).collect();
+    let mut names = distinct(names.iter());
     names.truncate(MOST_UNDECIDED);
     names
 }

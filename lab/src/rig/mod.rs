@@ -27,6 +27,7 @@ pub use replay_error::ReplayError;
 pub use replayed::ReplayedRig;
 pub use simulated::{RigCase, SimulatedRig};
 pub use tally::PredictedReading;
+pub(crate) use tally::away_from_edges;
 
 use crate::dataset::Experiment;
 use crate::simulate::SimulationError;

@@ -6,13 +6,14 @@
 //! to the first contact their paths do not depend on the wall law, and after it they have the share
 //! of their weight that is not caught and the same random numbers, so that predictions change
 //! smoothly with a parameter. Every experiment has its own seed: their Monte Carlo errors are
-//! independent. It has as many particles as its readings need, within what its hits cost. Walls with a memory (`[deposit]`) have no such paths: their case is run anew for
-//! each law, with its own random captures.
+//! independent. It has as many particles as its readings need, within what its hits cost. Walls with
+//! a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random
+//! captures.
 
 use rayon::prelude::*;
 
 use super::case_text::{CaseText, SettingError, SettingFault};
-use super::tally::{PredictedReading, TalliedHit, Tally};
+use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
 use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
@@ -111,9 +112,8 @@ const SMALL_VARIANCE: f64 = 0.1;
 const BASE_PARTICLES: u64 = 8;
 /// Most flights of an experiment that are kept [1]: some 50 MB.
 const KEPT_FLIGHTS: u64 = 50_000;
-/// Standard error of a reading that states none [1], and distance of a share from 0 and 1.
+/// Standard error of a reading that states none [1].
 const USUAL_ERROR: f64 = 0.02;
-const SHARE_MARGIN: f64 = 0.003;
 
 impl<'a> SimulatedRig<'a> {
     /// Flies particles of each case to their first contact: as many as its readings need.
@@ -143,7 +143,7 @@ impl<'a> SimulatedRig<'a> {
 
 /// Variance of a reading about a predicted value [1].
 fn variance(reading: &RigReading, predicted: f64) -> f64 {
-    let p = predicted.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN);
+    let p = away_from_edges(predicted);
     match (reading.error, reading.count) {
         (Some(error), _) => error * error,
         (None, Some(count)) if reading.quantity.is_share() => p * (1.0 - p) / count,

@@ -27,6 +27,14 @@ pub struct PredictedReading {
     pub particles: f64,
 }
 
+/// Distance that a predicted share keeps from 0 and 1 [1]: a stray particle must not refute a law.
+const SHARE_MARGIN: f64 = 0.003;
+
+/// A predicted share away from 0 and 1.
+pub(crate) fn away_from_edges(share: f64) -> f64 {
+    share.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN)
+}
+
 impl PredictedReading {
     /// This better known value with the difference between two predictions for the same particles.
     /// Its variance stays: the difference has next to none where a law is near the base.

@@ -2,8 +2,9 @@
 //!
 //! In gas at rest a small particle loses `Δ = x 18 μ/(ρ d²) = c/d²` of its speed over the distance `x`
 //! between window and wall (Stokes): it arrives with `v_n - Δ`, and its rebound, seen as `e_n v_n`, left
-//! the wall with `e_n v_n + Δ`; tangential speeds change by the same factors. The parameter is `c` [m³/s], tried from a thousandth to a half of
-//! the least `v_n d²`. The slope of `e_n` is `v_n/(v_n - Δ)`.
+//! the wall with `e_n v_n + Δ`; tangential speeds change by the same factors. The parameter is
+//! `c` [m³/s], tried from a thousandth to a half of the least `v_n d²`. The slope of `e_n` is
+//! `v_n/(v_n - Δ)`.
 
 use super::super::data_split::DataSplit;
 use super::super::likelihood::Offset;

@@ -6,7 +6,6 @@ use std::sync::{Arc, Mutex, PoisonError};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
-use super::super::constants::{CERTAINTY_RESAMPLES, NEARLY_BEST};
 use super::super::search::descend;
 use super::addition::{RigAddition, moved};
 use super::candidates::{candidates, unchanged_inputs};
@@ -15,6 +14,10 @@ use super::prediction_table::{PredictionTable, TabledCandidate, predict};
 use super::significance::NullGains;
 use crate::rig::{Forward, PredictedReading, PredictionError};
 
+/// Resamples for the certainty of a cause.
+const CERTAINTY_RESAMPLES: usize = 200;
+/// A resample names a cause that gains this share of what the best candidate does [1].
+const NEARLY_BEST: f64 = 0.75;
 /// Candidates whose best place gains less than the best one by more than this are not fitted [nats].
 const SHORTLIST: f64 = 4.0;
 /// Most laws, and most curves that are fitted.

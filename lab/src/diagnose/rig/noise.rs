@@ -15,10 +15,8 @@ use rand_distr::{Beta, Binomial, Distribution as _, StandardNormal};
 
 use super::scatter::{Density, GRID, Group, GroupedReading, OverGrid, log_sum};
 use crate::dataset::Experiment;
-use crate::rig::PredictedReading;
+use crate::rig::{PredictedReading, away_from_edges};
 
-/// Distance that a predicted share keeps from 0 and 1 [1]: a stray particle must not refute a law.
-const SHARE_MARGIN: f64 = 0.003;
 /// Number of kinds of observables.
 const KINDS: usize = 8;
 /// Scatter of readings without a stated error before they are seen, which counts as one reading
@@ -504,9 +502,4 @@ fn existing(one: &PredictedReading, measured: f64) -> PredictedReading {
     }
     let value = if measured > 0.5 { 0.0 } else { 1.0 };
     PredictedReading { value, variance: 0.0, doubt: 0.0, particles: one.particles }
-}
-
-/// A predicted share away from 0 and 1.
-fn away_from_edges(share: f64) -> f64 {
-    share.clamp(SHARE_MARGIN, 1.0 - SHARE_MARGIN)
 }

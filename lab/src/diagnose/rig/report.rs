@@ -3,14 +3,14 @@
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
-use super::super::constants::{LEAST_CERTAINTY, REFUTED};
+use super::super::constants::REFUTED;
 use super::super::finding::sigma;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
     Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, Options, Rows,
 };
-use super::super::sentences::{Words, fit_sentence, found, hint, is_refuted};
+use super::super::sentences::{Words, fit_sentence, found, is_refuted};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
@@ -24,6 +24,8 @@ use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::effect::EFFECTS;
 use nearwall::model::Model;
 
+/// Least share of resamples that name a cause [1]; with a smaller one it is a hint.
+const LEAST_CERTAINTY: f64 = 0.5;
 /// With fewer experiments than these, causes that cannot be told apart are undecided.
 const FEW_EXPERIMENTS: usize = 6;
 
@@ -401,7 +403,18 @@ fn explain(finding: &Finding) -> String {
 }
 
 /// The words for a rig.
-const RIG: Words = Words { subject: "wall law", data: "experiments", sets: "sets of experiments" };
+const RIG: Words = Words { subject: "wall law", data: "experiments" };
+
+/// A warning where few resamples name the first cause.
+fn hint(diagnosis: &Diagnosis) -> String {
+    match diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
+        None => String::new(),
+        Some(Finding { cause, certainty, .. }) => format!(
+            " {cause} is named in only {:.0} % of resampled sets of experiments: take it as a hint.",
+            100.0 * certainty
+        ),
+    }
+}
 
 /// The verdict: the result in a few sentences.
 fn verdict(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
@@ -428,7 +441,7 @@ fn verdict(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings
             not_carried.join(" or ")
         );
     }
-    text += &hint(diagnosis, &RIG);
+    text += &hint(diagnosis);
     let left = &diagnosis.fit.extended;
     let extends = !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty());
     if let (Some(chi_square), Some(freedom), Some(p)) =
