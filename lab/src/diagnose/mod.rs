@@ -139,7 +139,7 @@ pub fn diagnose_with_draws(
     if !is_worse(&found.0) {
         return Ok(found);
     }
-    // What rows refute that it has not seen is not named.
+    // What unseen rows refute is not named.
     let Diagnosis { findings, gain, gains, .. } = found.0;
     let (mut diagnosis, extended, draws) =
         examined(&study.without_causes(), &data, &whole, task, options, draws)?;
@@ -149,7 +149,7 @@ pub fn diagnose_with_draws(
     Ok((diagnosis, extended, draws))
 }
 
-/// Whether the model with its causes predicts rows worse that it has not seen.
+/// Whether the model with its causes predicts rows that it has not seen worse than without.
 fn is_worse(diagnosis: &Diagnosis) -> bool {
     let worse = |gain: &Gain| gain.log_score_after < gain.log_score_before;
     !diagnosis.findings.is_empty() && diagnosis.gain.as_ref().or(diagnosis.gains.first()).is_some_and(worse)

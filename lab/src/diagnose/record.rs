@@ -51,7 +51,7 @@ pub struct Diagnosis {
     pub explanations: Vec<ExplanationFound>,
     /// Causes of which one takes part, if these data cannot tell which; then there is no finding for them.
     pub undecided: Vec<String>,
-    /// Causes that were left out because the model with them predicts rows worse that it has not seen.
+    /// Causes that were left out: with them the model predicts rows that it has not seen worse.
     pub refuted: Vec<String>,
     /// Slips of input and artefacts of measurement that explain the misfit as well as a cause does.
     pub rivals: Vec<Rival>,

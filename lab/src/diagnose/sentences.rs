@@ -1,7 +1,9 @@
 //! The sentences of a verdict. Those of impacts and of a rig differ in some words.
 
-use super::constants::REFUTED;
-use super::record::{Calibration, Diagnosis, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained};
+use super::constants::{NAMED, REFUTED};
+use super::record::{
+    Calibration, Diagnosis, ExplanationFound, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained,
+};
 
 /// With fewer rows the verdict warns that effects may go undetected.
 const WARNED_ROWS: usize = 60;
@@ -152,7 +154,15 @@ fn nothing_found(diagnosis: &Diagnosis) -> String {
                 cause is none of these."
             .to_owned();
     }
-    format!("In {rows} rows no deviation from the model is significant.")
+    let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
+    let base: f64 = diagnosis.explanations.iter().filter(as_it_is).map(|one| one.probability).sum();
+    if base >= NAMED {
+        return format!("In {rows} rows no deviation from the model is significant.");
+    }
+    format!(
+        "In {rows} rows no cause is probable enough to be named: the base model as it is has the {}.",
+        probability_words(base)
+    )
 }
 
 fn gain_sentence(gain: &Gain) -> String {

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::{CommandResult, progress};
 
-/// Adds the model's e_n, e_t, p_stick and regime, and the stated ranges that are left, to each impact
+/// Adds the model's e_n, e_t, p_stick and regime, and the stated ranges that it leaves, to each impact
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub struct Arguments {
