@@ -106,8 +106,9 @@ fn add_explanations(page: &mut Page, diagnosis: &Diagnosis) {
         vec![causes, probability(one.probability)]
     };
     page.heading("How likely is which explanation?");
+    page.text("These explanations together have a probability of 95 %. A cause is named from 0.8 on.");
     page.table(Table::new(
-        "The explanations that together have a probability of 95 %. A cause is named from 0.8 on.",
+        "",
         1,
         &["explanation", "probability"],
         diagnosis.explanations.iter().map(row).collect(),
