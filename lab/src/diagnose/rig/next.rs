@@ -3,7 +3,8 @@
 //! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some
 //! values of its numbers that the file leaves open. With the error of the reading, of standard
 //! deviation `s`, they make a density `p_h(y)` of its value (a kernel estimate that keeps their
-//! variance). The expected information on which cause it is, is `sum w_h ∫ p_h ln(p_h/p) dy` with
+//! variance). The scatter between runs is part of that error: further particles in one run do not
+//! reduce it. The expected information on which cause it is, is `sum w_h ∫ p_h ln(p_h/p) dy` with
 //! `p = sum w_h p_h` [nats]: a cause that predicts one value is also told from one that leaves it
 //! open. That on the numbers of the first cause is `ln(1 + v_1/s²)/2` with their variance `v_1`.
 //! The first rows tell the causes apart as well as possible, the others are worth most in both.
@@ -68,8 +69,8 @@ pub struct NextExperiment {
 /// The error of a usual reading.
 #[derive(Debug, Clone, Copy)]
 enum Usual {
-    /// A share of so many particles.
-    Share(f64),
+    /// A share of so many particles, and the correlation between two of a run [1].
+    Share(f64, f64),
     /// Stated error [1].
     Error(f64),
     /// A fitted scatter of a single particle or reading [1], and the number of these.
@@ -77,13 +78,15 @@ enum Usual {
 }
 
 impl Usual {
-    /// Variance of a reading about a prediction, of one particle or one repeat.
-    fn variance(self, mean: f64) -> f64 {
+    /// Variance of a reading of so many particles or repeats about a prediction.
+    fn variance(self, mean: f64, count: f64) -> f64 {
         let p = mean.clamp(0.01, 0.99);
         match self {
-            Self::Share(_) => p * (1.0 - p),
-            Self::Error(error) => error * error,
-            Self::Scatter(scatter, _) => scatter * scatter,
+            Self::Share(_, correlation) => {
+                p * (1.0 - p) * (1.0 + (count - 1.0).max(0.0) * correlation) / count
+            }
+            Self::Error(error) => error * error / count,
+            Self::Scatter(scatter, _) => scatter * scatter / count,
         }
     }
 
@@ -91,7 +94,7 @@ impl Usual {
     fn count(self) -> f64 {
         match self {
             Self::Error(_) => 1.0,
-            Self::Share(count) | Self::Scatter(_, count) => count,
+            Self::Share(count, _) | Self::Scatter(_, count) => count,
         }
     }
 }
@@ -244,7 +247,7 @@ impl Ensemble {
 
     /// Variance of a reading of so many particles or repeats.
     fn noise(&self, one: &Possible, count: f64) -> f64 {
-        one.usual.variance(self.mean(&one.predicted)) / count
+        one.usual.variance(self.mean(&one.predicted), count)
     }
 
     /// The kernels of all states for a reading of so many particles: their middles, and their
@@ -548,7 +551,10 @@ fn columns(
             (None, Some(scatter)) if count.is_none() || !reading.quantity.is_share() => {
                 Usual::Scatter(*scatter, count.unwrap_or(1.0))
             }
-            _ => Usual::Share(count.unwrap_or(ASSUMED_COUNT)),
+            _ => {
+                let correlation = kind.map_or(0.0, |kind| study.data.between(&scatter, kind, true));
+                Usual::Share(count.unwrap_or(ASSUMED_COUNT), correlation)
+            }
         };
         columns.push((reading.clone(), usual));
     }
@@ -614,7 +620,7 @@ mod tests {
 
     fn shares(predicted: &[f64]) -> Possible {
         let [predicted, left] = [predicted.to_vec(), predicted.to_vec()];
-        Possible { place: [0, 0], usual: Usual::Share(100.0), predicted, left }
+        Possible { place: [0, 0], usual: Usual::Share(100.0, 0.0), predicted, left }
     }
 
     #[test]

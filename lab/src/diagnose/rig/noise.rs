@@ -326,6 +326,13 @@ impl Data {
         }
     }
 
+    /// The scatter between runs, squared, of the counted or stated readings of a kind [1].
+    pub fn between(&self, scatter: &FittedScatter, kind: usize, counted: bool) -> f64 {
+        let mut all = self.groups.iter().zip(&scatter.between);
+        let found = all.find(|(group, _)| group.kind == kind && group.counted == counted);
+        found.map_or(0.0, |(_, square)| *square)
+    }
+
     /// A sentence on each kind of readings that scatter as much as their errors again, or more.
     pub fn scatter_notes(&self, scatter: &FittedScatter) -> Vec<String> {
         let note = |(group, square): (&Group, &f64)| {
