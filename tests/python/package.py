@@ -249,7 +249,8 @@ def errors():
     pathlib.Path("bad.toml").write_text(model_file.read_text().replace("[normal]", "[normal]\nyield_ration = 1"))
     pathlib.Path("few.csv").write_text("v_n,e_n\n1,0.5\n2,oops\n")
     pathlib.Path("speed.csv").write_text("speed,d\n1,1e-5\n")
-    pathlib.Path("broken.csv").write_bytes(b"v_n,e_n\n1,\xff\xfe\n")
+    pathlib.Path("broken.csv").write_bytes(b"PK\x03\x04 v_n,e_n\n1,\x00\xfe\n")
+    pathlib.Path("west.csv").write_bytes("v_n,e_n,Prüfer\n1,0.5,Jörg\n".encode("latin-1"))
     pathlib.Path("map.toml").write_text("[columns]\nvn = 3\n")
     base = SETS["squash-ball-temperature"]
     data, model = base / "data.csv", base / "base.toml"
@@ -282,7 +283,8 @@ def errors():
     assert "not builtins.list" in refused(lambda: nearwall.predict([1.0], model_file), TypeError)
     assert "between 0 and 0.5" in refused(lambda: nearwall.diagnose(data, model, level=0.7), ValueError)
     assert "positive number of kelvin" in refused(lambda: nearwall.materials(temperature=float("nan")))
-    assert refused(lambda: nearwall.predict("broken.csv", model_file))
+    assert "is no text; save it as CSV" in refused(lambda: nearwall.predict("broken.csv", model_file))
+    assert numpy.isfinite(nearwall.predict("west.csv", model_file)["e_n"]).tolist() == [True]
     for nonsense in ({}, {"v_n": []}, {"v_n": [""]}, {"": [1.0]}, {"v_n": [1.0], " v_n": [2.0]}, {"#v_n": ["#1"]}):
         assert refused(lambda nonsense=nonsense: nearwall.predict(nonsense, model_file)), nonsense
     # Cells that would break a CSV file stay what they are.
