@@ -45,7 +45,7 @@ use set::{Plan, PlanOf, Recipe};
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
 /// Sets of a run that multiplies nothing.
-const SITUATIONS: [Situation; 67] = [
+const SITUATIONS: [Situation; 69] = [
     ("few-null", 3, few::null),
     ("few-level", 3, few::level),
     ("few-angle", 3, few::angle),
@@ -93,6 +93,8 @@ const SITUATIONS: [Situation; 67] = [
     ("rubbish-law", 1, rubbish::law),
     ("instrument-tilt", 2, instrument::tilted),
     ("instrument-drag", 1, instrument::drag),
+    ("instrument-drift", 2, instrument::drift),
+    ("sorted-by-speed", 2, instrument::sorted),
     ("instrument-noted-as-stuck", 1, instrument::noted_as_stuck),
     ("instrument-unseen", 1, instrument::unseen),
     ("instrument-projection", 1, instrument::projected),

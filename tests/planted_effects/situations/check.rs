@@ -225,6 +225,19 @@ fn instruments_change_what_they_say() {
         assert!(row.truth.e_n < row.base.e_n);
     }
     constants.windows(2).for_each(|pair| close(pair[0], pair[1], 1e-6, 0.0));
+    for name in ["instrument-drift:0", "instrument-drift:1"] {
+        // The mean error of the second half over that of the first one, in the noise of a mean of 150 rows or more.
+        let rows = rows(name);
+        let off = |part: &[Row]| {
+            let all: Vec<f64> =
+                part.iter().filter_map(|row| Some((row.measured[0]? - row.truth.e_n) / row.sigma[0])).collect();
+            all.iter().sum::<f64>() / all.len() as f64
+        };
+        let (first, second) = rows.split_at(rows.len() / 2);
+        assert!((off(second) - off(first)).abs() > 0.35, "{name}: {} and {}", off(first), off(second));
+    }
+    let sorted = rows("sorted-by-speed:0");
+    assert!(sorted.windows(2).all(|pair| pair[0].seen.v_n <= pair[1].seen.v_n));
     let stuck = rows("instrument-noted-as-stuck:0");
     let share = stuck.iter().filter(|row| row.outcome == Outcome::Stuck).count() as f64 / stuck.len() as f64;
     assert!((0.02..0.4).contains(&share), "{share}");

@@ -1,6 +1,7 @@
 //! The base is right, and the instrument or the geometry of the measurement is not what the file says.
 
 use crate::contact::Tangential;
+use crate::plant;
 use crate::set_rng::SetRng;
 use crate::sets;
 use crate::world::Inputs;
@@ -118,6 +119,35 @@ pub fn projected(_: usize, rng: &mut SetRng) -> Plan {
     (lab.model.tangential, lab.truth.tangential) = (law, law);
     lab.campaign.theta = (15.0, 75.0);
     plan(lab, rng).each(|row, rng| row.seen.v_t = row.x.v_t * rng.uniform((-1.4, 1.4)).cos())
+}
+
+/// The readings of e_n drift in the order of the file by 1.5 to 4 deviations of the noise: about the truth, or
+/// away from it.
+pub fn drift(index: usize, rng: &mut SetRng) -> Plan {
+    let lab = lab(rng);
+    let size = lab.campaign.noise_e_n * rng.uniform((1.5, 4.0)) * if rng.chance(0.5) { 1.0 } else { -1.0 };
+    let right_at = if index.is_multiple_of(2) { 0.5 } else { 0.0 };
+    plan(lab, rng).changed(move |rows, _| {
+        let last = rows.len() as f64 - 1.0;
+        for (place, row) in rows.iter_mut().enumerate() {
+            let off = size * (place as f64 / last - right_at);
+            row.measured[0] = row.measured[0].map(|e_n| (e_n + off).max(0.0));
+        }
+    })
+}
+
+/// Nothing drifts: the rows are sorted by speed, over which e_n falls by a law of the library or by one like it.
+pub fn sorted(index: usize, rng: &mut SetRng) -> Plan {
+    let plan = if index.is_multiple_of(2) {
+        exact::plan("viscoelastic-loss", index, rng)
+    } else {
+        let mut lab = lab(rng);
+        lab.plant(plant::viscoelastic_loss(rng.unit(), 2.0 * lab.campaign.v_n.1));
+        let alike = ["viscoelastic-loss", "strain-rate-hardening", "unknown:v_n"];
+        Plan::new(lab, 150 + rng.below(301), Expected::cause(&alike))
+    };
+    Plan { expected: plan.expected.clone().never(&["artefact:drift"]), ..plan }
+        .changed(|rows, _| rows.sort_by(|one, other| one.seen.v_n.total_cmp(&other.seen.v_n)))
 }
 
 /// An effect, and every e_n is too large or too small by a constant.

@@ -130,7 +130,7 @@ pub fn drift(_: usize, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);
     lab.given = vec!["time"];
     let size = lab.campaign.noise_e_n * rng.uniform((1.0, 3.0));
-    let expected = Expected::nothing().allowing(&["unknown:time"]);
+    let expected = Expected::nothing().allowing(&["unknown:time", "artefact:drift"]);
     Plan { expected, ..plan(lab, rng) }.changed(move |rows, _| {
         let count = rows.len() as f64;
         for (index, row) in rows.iter_mut().enumerate() {

@@ -1,6 +1,7 @@
 //! What instruments and geometry do to readings, one file each.
 
 mod drag;
+mod drift;
 mod tilt;
 mod unseen;
 
@@ -11,8 +12,15 @@ use super::reading::OtherReading;
 type Reading = fn(&DataSplit) -> Option<OtherReading>;
 
 /// All of them.
-pub(super) const ALL: [Reading; 5] =
-    [tilt::reading, drag::reading, unseen::by_ratio, unseen::by_speed, unseen::noted_as_stuck];
+pub(super) const ALL: [Reading; 7] = [
+    tilt::reading,
+    drag::reading,
+    drift::of_e_n,
+    drift::of_e_t,
+    unseen::by_ratio,
+    unseen::by_speed,
+    unseen::noted_as_stuck,
+];
 
 /// Even values from `low` to `high`, without 0.
 fn values(low: f64, high: f64, count: usize) -> Vec<f64> {
