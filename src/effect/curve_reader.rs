@@ -25,10 +25,6 @@ pub(super) fn read(
     let factor =
         section.choice("form", &CurveForm::ALL.map(CurveForm::name))?.is_some_and(|form| form == "factor");
     let form = if factor { CurveForm::Factor } else { CurveForm::Add };
-    if factor && on == CurveTarget::Capture {
-        let problem = "a curve on capture is added to the log odds; remove `form`, or write \"add\"";
-        return Err(section.fault("form", problem));
-    }
     if let [value] = kind.parameters {
         return read_level(value, section, on, form);
     }

@@ -5,8 +5,9 @@
 //! every impact. After all laws and effects, in the order of the file, `e_n -> e_n + f` and `e_t ->
 //! e_t + f` (`add`), or `e_n -> e_n (1 + f)` and `e_t -> e_t (1 + f)` (`factor`); then `e_n` is at
 //! least
-//! 0. On capture, `f` of all terms is added to the log odds of the probability `p` [1]: `b = 0.005 + 0.99 p`,
-//! `p -> clamp((logistic(logit(b) + f) - 0.005)/0.99, 0, 1)`. So 0 changes nothing, and 0 and 1 can be moved.
+//! 0. On capture, the factors `1 + f` of all terms are multiplied with the probability `p` [1], and then `f` of all
+//! others is added to its log odds: `b = 0.005 + 0.99 p`, `p -> clamp((logistic(logit(b) + f) - 0.005)/0.99, 0, 1)`.
+//! So 0 changes nothing, and 0 and 1 can be moved.
 //!
 //! `f` is a pure number [1]; knots have the unit of their input. No physics: the values hold for
 //! the data of the fit (`valid`). An input of words has a value for each word, and none between
@@ -21,7 +22,7 @@ pub(super) const LARGEST_VALUE: f64 = 100.0;
 /// Distance that the probability of capture keeps from 0 and 1 while its log odds are shifted [1].
 const MARGIN: f64 = 0.005;
 
-const ABOUT_VALUE: &str = "shift of e_n or e_t, or of the log odds of capture";
+const ABOUT_VALUE: &str = "correction of e_n, of e_t or of capture";
 
 pub(super) const FITTED_CURVE: EffectInfo = EffectInfo {
     id: "fitted-curve",
@@ -49,7 +50,7 @@ pub enum CurveTarget {
     NormalRestitution,
     /// `e_t`.
     TangentialRestitution,
-    /// The log odds of the probability of capture.
+    /// The probability of capture, or its log odds.
     Capture,
 }
 
@@ -63,10 +64,10 @@ impl CurveTarget {
     }
 }
 
-/// How a curve corrects `e_n` or `e_t`.
+/// How a curve corrects.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveForm {
-    /// The value is added.
+    /// The value is added; on capture to the log odds.
     Add,
     /// One plus the value is a factor.
     Factor,
@@ -81,11 +82,11 @@ impl CurveForm {
         ["add", "factor"][self as usize]
     }
 
-    /// A restitution [1] with a correction [1].
-    pub fn apply(self, restitution: f64, value: f64) -> f64 {
+    /// A number [1] with a correction [1].
+    pub fn apply(self, number: f64, value: f64) -> f64 {
         match self {
-            Self::Add => restitution + value,
-            Self::Factor => restitution * (1.0 + value),
+            Self::Add => number + value,
+            Self::Factor => number * (1.0 + value),
         }
     }
 }
@@ -153,7 +154,7 @@ impl CurveAxis {
 pub struct FittedCurve {
     /// What it corrects.
     pub on: CurveTarget,
-    /// How; on capture always [`CurveForm::Add`].
+    /// How.
     pub form: CurveForm,
     /// Its inputs.
     pub axes: Vec<CurveAxis>,
@@ -176,9 +177,10 @@ impl FittedCurve {
 
     /// The curve in words; `extra` are the inputs that the model file declares.
     pub(super) fn describe(&self, extra: &[ExtraInput]) -> String {
-        let on = match self.on {
-            CurveTarget::Capture => "log odds of capture",
-            other => other.name(),
+        let on = match (self.on, self.form) {
+            (CurveTarget::Capture, CurveForm::Add) => "log odds of capture",
+            (CurveTarget::Capture, CurveForm::Factor) => "p_stick",
+            (other, _) => other.name(),
         };
         let operation = match self.form {
             CurveForm::Add => format!("{on} + f"),
@@ -225,8 +227,9 @@ fn interpolated(axes: &[CurveAxis], values: &[f64], impact: &Impact) -> Option<f
     if share == 0.0 { Some(low) } else { Some((1.0 - share) * low + share * at(knot + 1)?) }
 }
 
-/// A probability of capture [1] whose log odds are shifted.
-pub(crate) fn shifted_probability(probability: f64, shift: f64) -> f64 {
+/// A probability of capture [1] with a factor, whose log odds are then shifted.
+pub(crate) fn shifted_probability(probability: f64, factor: f64, shift: f64) -> f64 {
+    let probability = (factor * probability).clamp(0.0, 1.0);
     if shift == 0.0 {
         return probability;
     }

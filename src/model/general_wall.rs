@@ -14,7 +14,7 @@ use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
 use crate::deposit::layers;
-use crate::effect::{CurveTarget, OnMelt, Term, shifted_probability, stream};
+use crate::effect::{CurveForm, CurveTarget, OnMelt, Term, shifted_probability, stream};
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
@@ -260,8 +260,8 @@ impl Model {
         if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
     }
 
-    /// The outcome after the fitted corrections, in the order of the file; the shifts of the log
-    /// odds of capture are added up. `reaching` is the impact on the wall as a whole.
+    /// The outcome after the fitted corrections, in the order of the file; of capture, the factors
+    /// are multiplied and the shifts of the log odds added up. `reaching` is the impact on the wall as a whole.
     pub(super) fn corrected(
         &self,
         reaching: &Impact,
@@ -272,7 +272,7 @@ impl Model {
             return plain;
         }
         let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
-        let mut shift = 0.0;
+        let (mut factor, mut shift) = (1.0, 0.0);
         for term in &self.terms {
             let Some(curve) = term.effect().correction() else { continue };
             let value = curve.value(reaching);
@@ -283,8 +283,11 @@ impl Model {
             };
             *corrected = match curve.on {
                 CurveTarget::Capture => {
-                    shift += value;
-                    shifted_probability(plain.probability, shift)
+                    match curve.form {
+                        CurveForm::Add => shift += value,
+                        CurveForm::Factor => factor *= 1.0 + value,
+                    }
+                    shifted_probability(plain.probability, factor, shift)
                 }
                 _ => curve.form.apply(*corrected, value),
             };

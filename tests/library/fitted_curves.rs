@@ -134,7 +134,7 @@ fn a_word_has_its_own_value_and_no_neighbour() {
 
 /// `p` of the melting transition is that of its logistic; the expected values are those of a pocket calculator.
 #[test]
-fn log_odds_are_shifted_also_from_0_and_1() {
+fn log_odds_are_shifted_also_from_0_and_1_and_below_a_ceiling() {
     let melting = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 350\nwidth = 10\n";
     let shift =
         |value: f64| format!("[[effects]]\nkind = \"level-shift\"\non = \"capture\"\nvalue = {value}\n");
@@ -155,6 +155,19 @@ fn log_odds_are_shifted_also_from_0_and_1() {
         // Shifts add up, and none of them loses what another one needs.
         let two = p(&format!("{melting}{}{}", shift(value - 7.0), shift(7.0)), &impact);
         assert!((two - expected).abs() < 1e-11, "{value}: {two} against {expected}");
+    }
+    // A ceiling of nine tenths, before or after a shift in the file, comes first.
+    let ceiling = shift(-0.1).replace("value", "form = \"factor\"\nvalue");
+    let shifted = 0.627726900687759;
+    for (text, expected) in [
+        (ceiling.clone(), 0.27),
+        (format!("{ceiling}{}", shift(1.5)), shifted),
+        (format!("{}{ceiling}", shift(1.5)), shifted),
+        (ceiling.repeat(2), 0.243),
+        (ceiling.replace("-0.1", "9"), 1.0),
+    ] {
+        let found = p(&format!("{melting}{text}"), &share);
+        assert!((found - expected).abs() < 1e-11, "{text}: {found} against {expected}");
     }
     // A particle that adhesion holds stays, unless a correction of capture releases it.
     let slow = Impact { normal_speed: 1e-3, ..Impact::default() };
@@ -285,10 +298,6 @@ fn errors_name_the_key_and_the_remedy() {
     part(curve("\"T_p\"", "[\"T_p\", \"T_w\"]"), &["effects[1].knots", "two lists, of T_p and of T_w"]);
     part(curve("\"e_n\"", "\"e_m\""), &["effects[1].on", "known here: e_n, e_t, capture"]);
     part(curve("on = \"e_n\"\n", ""), &["effects[1].on: missing"]);
-    part(
-        curve("\"e_n\"", "\"capture\"\nform = \"factor\""),
-        &["effects[1].form", "log odds", "remove `form`"],
-    );
     part(curve("fitted-curve", "fited-curve"), &["effects[1].kind", "did you mean `fitted-curve`?"]);
     part(curve(values, &format!("{values}\nvalue = 1")), &["unknown key `value`"]);
     part(

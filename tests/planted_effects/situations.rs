@@ -45,7 +45,7 @@ use set::{Plan, PlanOf, Recipe};
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
 /// Sets of a run that multiplies nothing.
-const SITUATIONS: [Situation; 69] = [
+const SITUATIONS: [Situation; 71] = [
     ("few-null", 3, few::null),
     ("few-level", 3, few::level),
     ("few-angle", 3, few::angle),
@@ -113,6 +113,8 @@ const SITUATIONS: [Situation; 69] = [
     ("capture-energy", 2, captures::energy),
     ("capture-layer", 2, captures::layer),
     ("capture-temperature", 2, captures::temperature),
+    ("capture-ceiling", 2, captures::missed_beside_a_law),
+    ("null-ceiling", 2, captures::missed_alone),
     ("capture-saturated", 2, captures::saturated),
     ("two-laboratories", 2, mixtures::laboratories),
 ];

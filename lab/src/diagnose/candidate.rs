@@ -4,6 +4,7 @@
 //! that treat it: its shapes in `shapes`, the list of candidates and the fits in `fitting`, its prior
 //! in [`Class`], its finding in `finding`.
 
+use super::constant_capture::{CaptureConstant, ConstantCapture};
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
@@ -29,7 +30,7 @@ pub(super) enum Class {
     Lawless,
     /// A mistake in the numbers, an instrument or a geometry.
     Rival,
-    /// Scatter, groups, captures at a constant rate.
+    /// Scatter, groups, captures at a constant rate or with a ceiling.
     Noise,
 }
 
@@ -67,7 +68,7 @@ pub(super) enum Candidate {
     ScatterTrend {
         covariate: usize,
     },
-    BackgroundCapture,
+    Captures(CaptureConstant),
 }
 
 impl Candidate {
@@ -76,7 +77,7 @@ impl Candidate {
             Self::Part(Part::Effect(_)) => Class::Law,
             Self::Part(Part::LawParameter(_)) => Class::Number,
             Self::Curve { sides, .. } => Class::of_columns(sides.iter().flatten().copied(), data),
-            Self::ScatterTrend { .. } | Self::BackgroundCapture => Class::Noise,
+            Self::ScatterTrend { .. } | Self::Captures(_) => Class::Noise,
         }
     }
 }
@@ -90,8 +91,8 @@ pub(super) enum Addition {
     Curve(ColumnCurve),
     /// Heteroscedastic noise.
     ScatterTrend(ScatterTrend),
-    /// Offset of the log odds of capture that no column explains.
-    BackgroundCapture(f64),
+    /// A constant of captures that no column explains, with the other one and the parts as they fit best beside it.
+    Captures { constant: CaptureConstant, all: ConstantCapture, others: Vec<FittedPart> },
 }
 
 impl Addition {
@@ -102,7 +103,7 @@ impl Addition {
             Self::Part { part, .. } => part.part.name(),
             Self::Curve(curve) => curve.form.name(data),
             Self::ScatterTrend(trend) => format!("scatter:{}", column(trend.covariate)),
-            Self::BackgroundCapture(_) => "background-capture".to_owned(),
+            Self::Captures { constant, .. } => constant.name().to_owned(),
         }
     }
 
@@ -111,7 +112,7 @@ impl Addition {
         match self {
             Self::Part { part, .. } => part.part.inputs().iter().map(|&input| input.to_owned()).collect(),
             Self::Curve(curve) => curve.form.columns(data),
-            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Vec::new(),
+            Self::ScatterTrend(_) | Self::Captures { .. } => Vec::new(),
         }
     }
 
@@ -137,7 +138,7 @@ impl Addition {
         match self {
             Self::Part { part, .. } => Candidate::Part(part.part).class(data),
             Self::Curve(curve) => Class::of_columns(curve.form.sides.iter().map(|side| side.0), data),
-            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => Class::Noise,
+            Self::ScatterTrend(_) | Self::Captures { .. } => Class::Noise,
         }
     }
 
@@ -146,13 +147,17 @@ impl Addition {
         match self {
             Self::Part { part, .. } => part.at.len() as f64,
             Self::Curve(curve) => curve.freedom,
-            Self::ScatterTrend(_) | Self::BackgroundCapture(_) => 1.0,
+            Self::ScatterTrend(_) | Self::Captures { .. } => 1.0,
         }
     }
 
     /// Whether a parameter is at the bound of its range: no law then, whatever it gains.
     pub fn at_bound(&self) -> bool {
-        matches!(self, Self::Part { part, .. } if part.at_bound())
+        match self {
+            Self::Part { part, .. } => part.at_bound(),
+            Self::Captures { all, .. } => all.at_bound(),
+            Self::Curve(_) | Self::ScatterTrend(_) => false,
+        }
     }
 
     /// Adds it to a hypothesis.
@@ -163,7 +168,10 @@ impl Addition {
             }
             Self::Curve(curve) => hypothesis.curves.push(curve.clone()),
             Self::ScatterTrend(trend) => hypothesis.scatter_trends.push(*trend),
-            Self::BackgroundCapture(odds) => hypothesis.background_capture = *odds,
+            Self::Captures { all, others, .. } => {
+                hypothesis.captures = *all;
+                hypothesis.parts.clone_from(others);
+            }
         }
     }
 
@@ -171,14 +179,13 @@ impl Addition {
     pub fn evaluate<'b>(&self, hypothesis: &Hypothesis<'b>, evaluation: &Evaluation<'b>) -> Evaluation<'b> {
         let mut offsets = evaluation.offsets.to_vec();
         match self {
-            Self::Part { .. } => {
+            Self::Part { .. } | Self::Captures { .. } => {
                 let mut joint = hypothesis.clone();
                 self.add_to(&mut joint);
                 return joint.evaluate(evaluation.rows.clone(), offsets).with_scatter(evaluation.scatter);
             }
             Self::Curve(curve) => curve.add_to(&mut offsets, evaluation),
             Self::ScatterTrend(trend) => trend.add_to(&mut offsets, evaluation.data),
-            Self::BackgroundCapture(odds) => offsets.iter_mut().for_each(|offset| offset.capture += odds),
         }
         evaluation.with_offsets(offsets)
     }
@@ -201,6 +208,22 @@ pub(super) struct ScoredCandidate {
 }
 
 impl ScoredCandidate {
+    /// An addition that is fitted and tested later, beside another one.
+    pub fn unproven(addition: Addition, differences: Vec<f64>, log_prior: f64) -> Self {
+        let own_gain = differences.iter().sum();
+        Self { addition, differences, own_gain, p_value: 1.0, q_value: 1.0, log_prior }
+    }
+
+    /// Its gain [nats] and its candidate, if it is a law that draws nothing at random.
+    pub fn plain_law(&self) -> Option<(f64, Candidate)> {
+        match &self.addition {
+            Addition::Part { part, .. } if !part.part.is_stochastic() => {
+                Some((self.gain(), Candidate::Part(part.part)))
+            }
+            _ => None,
+        }
+    }
+
     /// Gain in log score of all rows [nats].
     pub fn gain(&self) -> f64 {
         self.differences.iter().sum()

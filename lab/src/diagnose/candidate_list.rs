@@ -1,6 +1,7 @@
 //! The list of candidates of a round: everything that the data could tell apart from what the hypothesis already has.
 
 use super::candidate::Candidate;
+use super::constant_capture::CaptureConstant;
 use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
@@ -25,8 +26,9 @@ pub(super) fn candidates(hypothesis: &Hypothesis<'_>, few: bool) -> Vec<Candidat
     if !few {
         all.extend(scatter_trends(hypothesis));
     }
-    if hypothesis.background_capture == 0.0 && varies(hypothesis, Observable::Capture) {
-        all.push(Candidate::BackgroundCapture);
+    if varies(hypothesis, Observable::Capture) {
+        let open = CaptureConstant::ALL.into_iter().filter(|one| !hypothesis.captures.has(*one));
+        all.extend(open.map(Candidate::Captures));
     }
     all
 }

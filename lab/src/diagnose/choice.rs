@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::candidate::ScoredCandidate;
+use super::constant_capture::ConstantCapture;
 use super::constants::{Effort, LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
@@ -78,7 +79,7 @@ struct FoundParts {
     parts: Vec<FittedPart>,
     curves: Vec<ColumnCurve>,
     scatter_trends: Vec<ScatterTrend>,
-    background_capture: f64,
+    captures: ConstantCapture,
     scatter: Scatter,
 }
 
@@ -92,7 +93,7 @@ impl FoundParts {
             parts: hypothesis.parts.iter().filter(part).cloned().collect(),
             curves: hypothesis.curves.iter().filter(curve).cloned().collect(),
             scatter_trends: hypothesis.scatter_trends.clone(),
-            background_capture: hypothesis.background_capture,
+            captures: hypothesis.captures,
             scatter: hypothesis.scatter,
         }
     }
@@ -263,13 +264,8 @@ impl CauseChoice {
 
     /// The causes on these rows, as of the search.
     pub fn hypothesis<'a>(&self, data: &'a DataSplit) -> Hypothesis<'a> {
-        let FoundParts { parts, curves, scatter_trends, background_capture, scatter } = self.state.clone();
-        Hypothesis {
-            curves,
-            scatter_trends,
-            background_capture,
-            ..Hypothesis::with_parts(data, parts, scatter)
-        }
+        let FoundParts { parts, curves, scatter_trends, captures, scatter } = self.state.clone();
+        Hypothesis { curves, scatter_trends, captures, ..Hypothesis::with_parts(data, parts, scatter) }
     }
 
     /// The same without causes.

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::constant_capture::ConstantCapture;
 use super::data_split::DataSplit;
 use super::forecast::{Forecast, Prediction};
 use super::likelihood::{
@@ -42,6 +43,8 @@ pub(super) struct Evaluation<'a> {
     /// Offsets of all rows of the data, by index.
     pub offsets: Cow<'a, [Offset]>,
     pub scatter: Scatter,
+    /// What the captures of all rows have in common.
+    pub captures: ConstantCapture,
     /// Errors that groups of rows share, as of the last fit of the scatter.
     pub shared: Arc<SharedErrors>,
 }
@@ -79,8 +82,8 @@ impl<'a> Evaluation<'a> {
     ) -> Self {
         let rows = rows.into();
         let forecast = Arc::new(Forecast::of_data(model, data, &rows));
-        let shared = Arc::new(SharedErrors::default());
-        Self { data, rows, forecast, offsets: offsets.into(), scatter, shared }
+        let (shared, captures) = (Arc::new(SharedErrors::default()), ConstantCapture::default());
+        Self { data, rows, forecast, offsets: offsets.into(), scatter, captures, shared }
     }
 
     /// The rows at these places alone.
@@ -97,7 +100,12 @@ impl<'a> Evaluation<'a> {
         Self { scatter, ..self }
     }
 
-    /// The scatter of largest likelihood, by scoring from the present one, with the errors that groups share.
+    pub fn with_captures(self, captures: ConstantCapture) -> Self {
+        Self { captures, ..self }
+    }
+
+    /// The scatter and the ceiling of captures of largest likelihood, by scoring from the present ones,
+    /// with the errors that groups share.
     pub fn with_fitted_scatter(mut self) -> Self {
         for _ in 0..SCATTER_STEPS {
             self.fit_shared_errors();
@@ -105,13 +113,16 @@ impl<'a> Evaluation<'a> {
             for (_, row, predictions, offset) in self.each() {
                 add_squares(&mut sums, row, predictions, &offset, self.scatter);
             }
+            let ceiling = self.captures.ceiling;
+            self.captures = self.captures.stepped(self.outcomes());
             let before = self.scatter;
             self.scatter = [0, 1].map(|which| {
                 let [sum, weight] = sums[which];
                 if weight > 0.0 { (sum / weight).max(SMALLEST_SCATTER.powi(2)).sqrt() } else { before[which] }
             });
             let changes = self.scatter.iter().zip(before);
-            if changes.into_iter().all(|(next, before)| (next - before).abs() < SCATTER_TOLERANCE * next) {
+            let mut changes = changes.chain(self.captures.ceiling.as_ref().zip(ceiling));
+            if changes.all(|(next, before)| (next - before).abs() < SCATTER_TOLERANCE * next) {
                 break;
             }
         }
@@ -148,7 +159,7 @@ impl<'a> Evaluation<'a> {
 
     /// The offset of a row, with the shared error of its group.
     fn offset(&self, index: usize) -> Offset {
-        let mut offset = self.offsets[index];
+        let mut offset = self.captures.beside(&self.offsets[index]);
         if let Some(groups) = &self.data.shared {
             let group = groups.of_row[index];
             let shared = self.shared.offset(group);
@@ -208,7 +219,10 @@ impl<'a> Evaluation<'a> {
     /// Every row with its predicted means, without what its group shares.
     pub fn means(&self) -> impl Iterator<Item = (&Measurement, Mean)> {
         let one = |(place, &index): (usize, &usize)| {
-            (&self.data.rows[index], mean(self.forecast.of(place), &self.offsets[index]))
+            (
+                &self.data.rows[index],
+                mean(self.forecast.of(place), &self.captures.beside(&self.offsets[index])),
+            )
         };
         self.rows.iter().enumerate().map(one)
     }
@@ -233,6 +247,14 @@ impl<'a> Evaluation<'a> {
             Some(row.impacts * (mean(predictions, &offset).capture - row.captured?))
         };
         self.each().filter_map(one).fold(None, |sum, one| Some(sum.unwrap_or(0.0) + one))
+    }
+
+    /// Number of impacts, share captured and predicted share of the rows whose outcome is known, each [1].
+    fn outcomes(&self) -> impl Iterator<Item = [f64; 3]> {
+        let rebound = |row: &Measurement| row.is_unstated_rebound().then_some(0.0);
+        self.means().filter_map(move |(row, mean)| {
+            Some([row.impacts, row.captured.or_else(|| rebound(row))?, mean.capture])
+        })
     }
 
     /// The slope of every row's log score by the predictions, without draws.

@@ -2,6 +2,7 @@
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
+use super::constant_capture::ConstantCapture;
 use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::hypothesis::Hypothesis;
@@ -44,10 +45,11 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
             document = before;
         }
     }
-    if hypothesis.background_capture != 0.0 {
-        let form = ColumnCurveForm::level(Observable::Capture, false);
-        let heights = vec![hypothesis.background_capture];
-        added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights, freedom: 1.0 }));
+    let ConstantCapture { rate, ceiling } = hypothesis.captures;
+    let rate = (rate != 0.0).then_some((rate, false));
+    for (height, factor) in ceiling.map(|ceiling| (ceiling - 1.0, true)).into_iter().chain(rate) {
+        let form = ColumnCurveForm::level(Observable::Capture, factor);
+        added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights: vec![height], freedom: 1.0 }));
     }
     Ok(with_effects(document, added))
 }

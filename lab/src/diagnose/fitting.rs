@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
+use super::constant_capture::{CaptureConstant, FIRST_CEILING};
 use super::curve::ColumnCurveForm;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
@@ -90,7 +91,7 @@ impl<'a> CandidateRound<'a> {
     }
 
     fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {
-        let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. });
+        let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. } | Candidate::Captures(_));
         let hopeless =
             !cheap && self.few.is_none() && tested.p_value > WORTH_A_FIT && tested.gain < PROMISING_GAIN;
         if tested.starts.is_empty() || hopeless {
@@ -100,10 +101,7 @@ impl<'a> CandidateRound<'a> {
             Candidate::Part(part) => self.fit_part(part, &tested.starts)?,
             Candidate::Curve { sides, observable } => self.better_curve(sides, observable)?,
             Candidate::ScatterTrend { covariate } => Addition::ScatterTrend(self.fit_trend(covariate)),
-            Candidate::BackgroundCapture => {
-                let level = ColumnCurveForm::level(Observable::Capture, false);
-                Addition::BackgroundCapture(level.fit(&self.search)?.heights.first().copied()?)
-            }
+            Candidate::Captures(constant) => self.fit_constant(constant)?,
         };
         let extended = addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter();
         let freedom = addition.freedom();
@@ -230,6 +228,29 @@ impl<'a> CandidateRound<'a> {
         let multiplied = if observable == Observable::Capture { None } else { fit(true) };
         let better = fit(false).into_iter().chain(multiplied).max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(better.1)
+    }
+
+    /// A constant of captures; the parts are refitted beside a ceiling, without which they are too wide.
+    fn fit_constant(&self, constant: CaptureConstant) -> Option<Addition> {
+        let mut joint = self.hypothesis.clone();
+        match constant {
+            CaptureConstant::Rate => {
+                let level = ColumnCurveForm::level(Observable::Capture, false);
+                joint.captures.rate = level.fit(&self.search)?.heights.first().copied()?;
+            }
+            CaptureConstant::Ceiling => {
+                joint.captures.ceiling = Some(FIRST_CEILING);
+                let start = joint.coordinates();
+                if !start.is_empty() && !joint.is_stochastic() {
+                    let cost = |at: &[f64]| cost(&joint, at, &self.search);
+                    let (at, _) = descend(cost, &start, 0.06, 20 * start.len() as u64);
+                    joint = joint.with_coordinates(&at);
+                }
+                let rows = joint.evaluate(&*self.search.rows, &*self.search.offsets);
+                joint.captures = rows.with_scatter(self.search.scatter).with_fitted_scatter().captures;
+            }
+        }
+        Some(Addition::Captures { constant, all: joint.captures, others: joint.parts })
     }
 
     /// The slope of the scatter that fits best, from -1 to 1.

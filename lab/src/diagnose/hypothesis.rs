@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::constant_capture::{CaptureConstant, ConstantCapture};
 use super::constants::FIRST_SCATTER;
 use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
@@ -55,8 +56,8 @@ pub(super) struct Hypothesis<'a> {
     /// The observables that each part acts on, in their order, as of the last [`Hypothesis::fit_discrepancy`].
     pub acts_on: Vec<Vec<Observable>>,
     pub curves: Vec<ColumnCurve>,
-    /// Offset of the log odds of capture [1] that is the same for all rows.
-    pub background_capture: f64,
+    /// What captures have in common beside the parts and curves.
+    pub captures: ConstantCapture,
     pub scatter_trends: Vec<ScatterTrend>,
     /// Offsets of `e_n` and `e_t` by row: residuals over the parts' own inputs, where a law is inexact.
     pub discrepancy: Option<[Vec<f64>; 2]>,
@@ -74,7 +75,7 @@ impl<'a> Hypothesis<'a> {
             parts,
             acts_on: Vec::new(),
             curves: Vec::new(),
-            background_capture: 0.0,
+            captures: ConstantCapture::default(),
             scatter_trends: Vec::new(),
             discrepancy: None,
             discrepancy_freedom: 0.0,
@@ -103,12 +104,10 @@ impl<'a> Hypothesis<'a> {
         model.with_terms(terms)
     }
 
-    /// The offsets of all rows.
+    /// The offsets of all rows, without what their captures have in common.
     pub fn offsets(&self) -> Vec<Offset> {
         let data = self.data;
-        let constant = |noise: &Offset| Offset { capture: self.background_capture, ..*noise };
-        let constant: Vec<Offset> = data.noise.iter().map(constant).collect();
-        let mut offsets = constant.clone();
+        let mut offsets = data.noise.to_vec();
         for trend in &self.scatter_trends {
             trend.add_to(&mut offsets, data);
         }
@@ -118,7 +117,7 @@ impl<'a> Hypothesis<'a> {
             }
         }
         if !self.curves.is_empty() {
-            let all = self.evaluate(data.all(), constant);
+            let all = self.evaluate(data.all(), &*data.noise);
             self.curves.iter().for_each(|curve| curve.add_to(&mut offsets, &all));
         }
         offsets
@@ -133,7 +132,8 @@ impl<'a> Hypothesis<'a> {
     where
         'a: 'b,
     {
-        Evaluation::new(self.data, &self.model(), rows, offsets, self.scatter)
+        let plain = Evaluation::new(self.data, &self.model(), rows, offsets, self.scatter);
+        plain.with_captures(self.captures)
     }
 
     /// Whether an outcome is drawn at random.
@@ -157,7 +157,7 @@ impl<'a> Hypothesis<'a> {
     pub fn freedom(&self) -> f64 {
         let parts = self.parts.iter().map(|part| part.at.len() as f64).sum::<f64>();
         let curves = self.curves.iter().map(|curve| curve.freedom).sum::<f64>();
-        parts + curves + self.scatter_trends.len() as f64
+        parts + curves + self.scatter_trends.len() as f64 + self.captures.freedom()
     }
 
     /// The coordinates of all parts, one part after the other.
@@ -183,9 +183,14 @@ impl<'a> Hypothesis<'a> {
         self.parts.iter_mut().for_each(|part| part.free_defaults(data));
     }
 
-    /// Fits the scatter to these rows.
+    /// Fits the scatter and the ceiling of captures to these rows.
     pub fn fit_scatter(&mut self, rows: &[usize]) {
-        self.scatter = self.evaluate(rows, self.offsets()).with_fitted_scatter().scatter;
+        self.set_noise(self.evaluate(rows, self.offsets()));
+    }
+
+    fn set_noise(&mut self, rows: Evaluation<'_>) {
+        let Evaluation { scatter, captures, .. } = rows.with_fitted_scatter();
+        (self.scatter, self.captures) = (scatter, captures);
     }
 
     /// Fits all parameters together to these rows, from their present values, then the curves and the scatter.
@@ -201,7 +206,7 @@ impl<'a> Hypothesis<'a> {
                 let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
                 *self = self.with_coordinates(&at);
             }
-            self.scatter = self.evaluate(rows, &offsets).with_fitted_scatter().scatter;
+            self.set_noise(self.evaluate(rows, &offsets));
             for place in 0..self.curves.len() {
                 let curve = self.curves.remove(place);
                 let fitted =
@@ -228,16 +233,16 @@ impl<'a> Hypothesis<'a> {
 
     /// Fits the constant rate of captures, if there is one; 0 where a curve of capture takes its place.
     fn fit_rate(&mut self, rows: &[usize]) {
-        if self.background_capture == 0.0 {
+        if !self.captures.has(CaptureConstant::Rate) {
             return;
         }
-        let before = std::mem::take(&mut self.background_capture);
+        let before = std::mem::take(&mut self.captures.rate);
         if self.curves.iter().any(|curve| curve.form.observable == Observable::Capture) {
             return;
         }
         let level = ColumnCurveForm::level(Observable::Capture, false);
         let fitted = level.fit(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
-        self.background_capture = fitted.and_then(|curve| curve.heights.first().copied()).unwrap_or(before);
+        self.captures.rate = fitted.and_then(|curve| curve.heights.first().copied()).unwrap_or(before);
     }
 
     /// Fits all parameters together to the rows of the search, then the discrepancy.

@@ -7,8 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use super::candidate::{Addition, Class, ScoredCandidate};
+use super::candidate::{Addition, Candidate, Class, ScoredCandidate};
 use super::candidate_list::candidates;
+use super::constant_capture::{CaptureConstant, ConstantCapture, FIRST_CEILING};
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
@@ -132,8 +133,7 @@ impl<'a> ImpactSearch<'a> {
     fn with_or_without_remainder(&self, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
         let ground = &self.grounds[new.fitted.ground];
         let hypothesis = &new.fitted.hypothesis;
-        let rate = f64::from(u8::from(hypothesis.background_capture != 0.0));
-        let own = ground.freedom + hypothesis.freedom() + rate + self.beyond_stated(hypothesis);
+        let own = ground.freedom + hypothesis.freedom() + self.beyond_stated(hypothesis);
         let alone = ground.scores(&hypothesis.without_discrepancy());
         let with = ground.scores(hypothesis);
         let all = own + hypothesis.discrepancy_freedom;
@@ -141,6 +141,37 @@ impl<'a> ImpactSearch<'a> {
         (new.scores, new.freedom) =
             if worth(&with, all) > worth(&alone, own) { (with, all) } else { (alone, own) };
         new
+    }
+
+    /// The explanation with a ceiling of captures and each of the laws that gain most, fitted together: few
+    /// rebounds refute a law that captures all, so that it would not be pursued alone.
+    fn below_ceiling(
+        &self,
+        of: &ImpactExplanation<'a>,
+        scored: &[ScoredCandidate],
+        prior: &dyn Fn(Class, usize) -> f64,
+    ) -> Vec<ImpactExplanation<'a>> {
+        let mut laws: Vec<(f64, Candidate)> = scored.iter().filter_map(ScoredCandidate::plain_law).collect();
+        laws.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let laws: Vec<Candidate> = laws.into_iter().take(self.refitted).map(|(_, law)| law).collect();
+        let hypothesis = &of.fitted.hypothesis;
+        let before = self.grounds[of.fitted.ground].scores(hypothesis);
+        let all = ConstantCapture { ceiling: Some(FIRST_CEILING), ..hypothesis.captures };
+        let addition =
+            Addition::Captures { constant: CaptureConstant::Ceiling, all, others: hypothesis.parts.clone() };
+        let bare = Hypothesis { captures: all, ..hypothesis.clone() };
+        let after = self.grounds[of.fitted.ground].scores(&bare);
+        let share = 1.0 / before.len().max(1) as f64;
+        let differences = after.iter().zip(&before).map(|(after, before)| after - before - share).collect();
+        let ceiling = ScoredCandidate::unproven(addition, differences, prior(Class::Noise, 0));
+        let below = self.beside(of, ceiling);
+        let round = CandidateRound::new(&below.fitted.hypothesis);
+        let inside = round.score(&laws, &|| ()).into_iter().filter(|one| !one.addition.at_bound());
+        let with = inside.map(|one| {
+            let log_prior = prior(one.addition.class(hypothesis.data), 1);
+            self.refitted(&below, self.beside(&below, ScoredCandidate { log_prior, ..one }))
+        });
+        with.collect()
     }
 
     /// The explanation with errors that groups share.
@@ -186,20 +217,27 @@ impl<'a> Explained for ImpactSearch<'a> {
         let list = candidates(hypothesis, round.is_few());
         let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
         list.iter().for_each(|one| *counts.entry(one.class(hypothesis.data)).or_default() += 1);
+        let prior = |class: Class, joined: usize| {
+            let further = (of.fitted.found.len() + joined) as f64 * FURTHER.ln();
+            surprise(class, counts.get(&class).copied().unwrap_or(1)) + further
+        };
         let scored = round.score(&list, self.progress);
-        let prior = |class: Class| surprise(class, counts.get(&class).copied().unwrap_or(1));
+        let is_ceiling = |one: &Candidate| matches!(one, Candidate::Captures(CaptureConstant::Ceiling));
+        let below =
+            if list.iter().any(is_ceiling) { self.below_ceiling(of, &scored, &prior) } else { Vec::new() };
         let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
         let beside = inside.map(|one| {
-            let further = of.fitted.found.len() as f64 * FURTHER.ln();
-            let log_prior = prior(one.addition.class(hypothesis.data)) + further;
+            let log_prior = prior(one.addition.class(hypothesis.data), 0);
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
         all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
         let rest = all.split_off(all.len().min(self.refitted));
-        let refitted = all.into_iter().map(|new| self.refitted(of, new));
+        let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(below);
         let mut found: Vec<_> = refitted.chain(rest).collect();
-        found.retain(|new| !new.fitted.hypothesis.parts.iter().any(|part| part.at_bound()));
+        let at_bound =
+            |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
+        found.retain(|new| !at_bound(&new.fitted.hypothesis));
         found.extend(self.grouped(of));
         found
     }
@@ -250,7 +288,7 @@ fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit
         Addition::ScatterTrend(trend) => {
             hypothesis.scatter_trends.retain(|own| own.covariate != trend.covariate);
         }
-        Addition::BackgroundCapture(_) => hypothesis.background_capture = 0.0,
+        Addition::Captures { constant, .. } => hypothesis.captures = hypothesis.captures.without(*constant),
     }
 }
 

@@ -38,6 +38,8 @@ pub(super) struct Offset {
     pub restitution: [f64; 2],
     /// Added to the log odds of capture [1].
     pub capture: f64,
+    /// Factor on the probability of capture [1].
+    pub ceiling: f64,
     /// Factor on the scatter [1].
     pub spread: f64,
     /// Variance of `e_n` and `e_t` due to the errors of the inputs and to rounding [1].
@@ -57,6 +59,7 @@ impl Default for Offset {
         Self {
             restitution: [0.0; 2],
             capture: 0.0,
+            ceiling: 1.0,
             spread: 1.0,
             variance: [0.0; 2],
             uncertainty: [0.0; 2],
@@ -127,7 +130,7 @@ impl Censored {
 /// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
 fn capture(prediction: &Prediction, offset: &Offset) -> f64 {
     let bounded = |share: f64| UNCERTAINTY + (1.0 - 2.0 * UNCERTAINTY) * share;
-    let plain = bounded(prediction.capture);
+    let plain = bounded(offset.ceiling * prediction.capture);
     if offset.capture == 0.0 {
         return plain;
     }

@@ -11,6 +11,7 @@ mod candidate;
 mod candidate_list;
 mod choice;
 pub mod comparison;
+mod constant_capture;
 mod constants;
 mod covariance;
 mod curve;

@@ -61,6 +61,9 @@ pub struct Diagnosis {
     pub scatter: ScatterFound,
     /// Effects that these data cannot show.
     pub not_examined: Vec<NotExamined>,
+    /// Share [1] of the captures that the model predicts which happen, where some never do.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub capture_ceiling: Option<f64>,
     /// Captures that neither the base model nor a cause nor a column explains.
     pub unexplained_capture: Option<Unexplained>,
     /// The gain on held-out rows in the observable of the first finding.

@@ -44,6 +44,13 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             100.0 * expected
         );
     }
+    if let Some(ceiling) = diagnosis.capture_ceiling {
+        text += &format!(
+            " Of the captures that the model predicts {:.1} % happen, whatever the impact: the others are missed, or \
+             bounce for another reason.",
+            100.0 * ceiling
+        );
+    }
     if let Some(groups) = &diagnosis.groups {
         text += &format!(
             " Rows of one {} share an error ({} groups): an effect must be seen beside it.",
@@ -144,7 +151,7 @@ fn nothing_found(diagnosis: &Diagnosis) -> String {
         let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
         return format!("These data speak against the model, but cannot tell which of {causes}.");
     }
-    if diagnosis.unexplained_capture.is_some() {
+    if diagnosis.unexplained_capture.is_some() || diagnosis.capture_ceiling.is_some() {
         return format!(
             "In {rows} rows no effect is significant, but the model does not reproduce the captures."
         );

@@ -1,6 +1,7 @@
 //! The shapes of candidates: how each would change the log score of every row, to first order in its amplitude.
 
 use super::candidate::Candidate;
+use super::constant_capture::CaptureConstant;
 use super::curve::ColumnCurveForm;
 use super::data_split::standardised;
 use super::evaluation::{Evaluation, Slope};
@@ -53,7 +54,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
             Candidate::Part(part) => self.of_part(part),
             Candidate::Curve { sides, observable } => self.of_curve(sides, observable),
             Candidate::ScatterTrend { covariate } => self.of_trend(covariate),
-            Candidate::BackgroundCapture => self.of_background(),
+            Candidate::Captures(constant) => self.of_constant(constant),
         };
         let alive: Vec<bool> = shapes.scores.iter().map(|u| u.iter().any(|u| *u != 0.0)).collect();
         let mut keep = alive.iter();
@@ -224,12 +225,19 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         Shapes { both_signs: true, at: vec![Vec::new()], scores, gains: Vec::new() }
     }
 
-    fn of_background(&self) -> Shapes {
-        let one = |slope: &Slope| {
-            if slope.information[2] > 0.0 { slope.capture / slope.information[2] } else { 0.0 }
+    fn of_constant(&self, constant: CaptureConstant) -> Shapes {
+        let one = |(slope, mean): (&Slope, &Mean)| match constant {
+            CaptureConstant::Rate if slope.information[2] > 0.0 => slope.capture / slope.information[2],
+            CaptureConstant::Rate => 0.0,
+            CaptureConstant::Ceiling => -slope.capture * mean.capture,
         };
-        let scores = vec![self.slopes.iter().map(one).collect()];
-        Shapes { both_signs: true, at: vec![Vec::new()], scores, gains: Vec::new() }
+        let scores = vec![self.slopes.iter().zip(&self.means).map(one).collect()];
+        Shapes {
+            both_signs: constant == CaptureConstant::Rate,
+            at: vec![Vec::new()],
+            scores,
+            gains: Vec::new(),
+        }
     }
 }
 

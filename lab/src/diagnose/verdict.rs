@@ -2,6 +2,7 @@
 
 use super::candidate::{Addition, ScoredCandidate};
 use super::choice::{CauseChoice, distinct};
+use super::constant_capture::CaptureConstant;
 use super::constants::{LISTED, NAMED};
 use super::curve::ColumnCurve;
 use super::finding::FindingBuilder;
@@ -85,7 +86,8 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
             changes_with: trends.map(|trend| data.covariates[trend.covariate].name.clone()).collect(),
         },
         not_examined: not_examined(&data.base, |input| data.range(input), "in the data"),
-        unexplained_capture: (hypothesis.background_capture != 0.0).then(|| {
+        capture_ceiling: hypothesis.captures.ceiling,
+        unexplained_capture: hypothesis.captures.has(CaptureConstant::Rate).then(|| {
             let [measured, expected] = captured_shares(hypothesis);
             Unexplained { measured, expected }
         }),

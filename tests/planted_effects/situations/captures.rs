@@ -76,6 +76,32 @@ pub fn null(_: usize, rng: &mut SetRng) -> Plan {
     Plan::new(lab, 40 + rng.below(61), Expected::nothing())
 }
 
+/// One in ten of the particles that stick is missed, whatever the impact.
+fn missed() -> Plant {
+    Plant::normal("capture-ceiling", |_, _, n| n.stick *= 0.9)
+}
+
+/// Particles stick from a temperature on by the library's own law, and one in ten of them is missed.
+pub fn missed_beside_a_law(index: usize, rng: &mut SetRng) -> Plan {
+    let mut lab = lab(rng);
+    lab.campaign.t_p = (300.0, 390.0);
+    let law = own_laws::melting(rng.uniform((335.0, 355.0)), rng.uniform((4.0, 12.0)), 0.0);
+    let of_law = |(name, value): &(&'static str, f64)| ("melting-transition", *name, *value);
+    let parameters = law.parameters.iter().map(of_law).collect();
+    lab.plant(law);
+    lab.plant(missed());
+    let mut plan = plan(lab, &["melting-transition", "unknown:T_p"], index, rng);
+    plan.expected.parameters = parameters;
+    plan
+}
+
+/// One in ten of the particles that stick by the base is missed.
+pub fn missed_alone(index: usize, rng: &mut SetRng) -> Plan {
+    let mut plan = null(index, rng);
+    plan.lab.plant(missed());
+    plan
+}
+
 /// Particles stick from a temperature on, but at most 70 or 90 % of them.
 pub fn saturated(index: usize, rng: &mut SetRng) -> Plan {
     let mut lab = lab(rng);

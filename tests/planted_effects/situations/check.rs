@@ -229,8 +229,10 @@ fn instruments_change_what_they_say() {
         // The mean error of the second half over that of the first one, in the noise of a mean of 150 rows or more.
         let rows = rows(name);
         let off = |part: &[Row]| {
-            let all: Vec<f64> =
-                part.iter().filter_map(|row| Some((row.measured[0]? - row.truth.e_n) / row.sigma[0])).collect();
+            let all: Vec<f64> = part
+                .iter()
+                .filter_map(|row| Some((row.measured[0]? - row.truth.e_n) / row.sigma[0]))
+                .collect();
             all.iter().sum::<f64>() / all.len() as f64
         };
         let (first, second) = rows.split_at(rows.len() / 2);
