@@ -24,8 +24,18 @@ const LAYER_THICKNESS: Limits =
     Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
 /// The tables of a model file.
-const MODEL_TABLES: [&str; 9] =
-    ["particle", "walls", "normal", "tangential", "capture", "inputs", "effects", "erosion", "materials"];
+const MODEL_TABLES: [&str; 10] = [
+    "particle",
+    "walls",
+    "normal",
+    "tangential",
+    "capture",
+    "inputs",
+    "effects",
+    "erosion",
+    "materials",
+    "fitted",
+];
 
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
@@ -59,6 +69,8 @@ impl Model {
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
         let erosion = optional(top, "erosion", erosion::read)?;
+        // A record of the fit for `nearwall compare`.
+        optional(top, "fitted", |section| section.texts("rows"))?;
         let criterion = capture.criterion;
         let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;

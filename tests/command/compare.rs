@@ -216,6 +216,58 @@ fn the_same_seed_gives_the_same_bytes() {
     assert!(files() == files(), "two runs differ");
 }
 
+/// Compares the base and its extended model on these rows in reverse order: the number of them that fitted
+/// the extended model, and what is printed.
+fn compared_on(at: &Path, rows: &[&str]) -> (u64, String) {
+    let text: String = rows.iter().rev().map(|row| format!("{row}\n")).collect();
+    std::fs::write(at.join("part.csv"), format!("v_n,v_t,e_n,e_t\n{text}")).unwrap();
+    let models = ["base.toml", "out/extended.toml"];
+    let printed = done(at, &["compare", "part.csv", "--models", models[0], models[1], "--out", "compared"]);
+    let text = std::fs::read_to_string(at.join("compared/compare.json")).unwrap();
+    let compared: Value = serde_json::from_str(&text).unwrap();
+    let [of_base, of_extended] = models.map(|name| {
+        let models = compared["models"].as_array().unwrap();
+        models.iter().find(|one| one["model"] == name).unwrap()["rows"]["fitted"].as_u64().unwrap()
+    });
+    assert_eq!(of_base, 0);
+    (of_extended, printed)
+}
+
+/// `extended.toml` knows the rows that fitted it, in any order and in parts of their file: those that the
+/// diagnosis does not list as unseen.
+#[test]
+fn rows_that_fitted_a_model_are_counted() {
+    let cells = planted(240, 4);
+    let lines: Vec<&str> = cells.lines().map(|line| line.rsplit_once(',').unwrap().0).collect();
+    let base = model(RIGHT).replace("e_t = 0.7", "e_t = 0.5");
+    let folder = folder(&[("lab.csv", &(lines.join("\n") + "\n")), ("base.toml", &base)]);
+    let at = folder.path();
+    done(at, &["diagnose", "lab.csv", "--model", "base.toml", "--out", "out"]);
+    let text = std::fs::read_to_string(at.join("out/diagnosis.json")).unwrap();
+    let diagnosis: Value = serde_json::from_str(&text).unwrap();
+    let unseen = diagnosis["rows"]["held_out_lines"].as_array().unwrap();
+    assert!((40..100).contains(&unseen.len()), "{unseen:?}");
+    let is_unseen = |place: usize| unseen.iter().any(|line| line.as_u64() == Some(place as u64 + 1));
+    let of = |wanted: bool| (1..241).filter(|place| is_unseen(*place) == wanted).map(|place| lines[place]);
+    let (held_out, fitted): (Vec<&str>, Vec<&str>) = (of(true).collect(), of(false).collect());
+    let (count, printed) = compared_on(at, &lines[1..]);
+    assert_eq!(count as usize, fitted.len());
+    let sentence =
+        format!("{count} of 240 rows of this file fitted out/extended.toml: the comparison is not a test");
+    assert!(printed.contains(&sentence), "{printed}");
+    let (count, printed) = compared_on(at, &fitted[..50]);
+    assert_eq!(count, 50);
+    assert!(printed.contains("All 50 rows fitted out/extended.toml: the comparison only measures its fit"));
+    let (count, printed) = compared_on(at, &held_out);
+    assert!(count == 0 && !printed.contains("fitted out/extended.toml"), "{printed}");
+    // Whoever reads the model accepts the record, and a diagnosis against it keeps it.
+    assert!(done(at, &["check", "out/extended.toml"]).contains("accepted"));
+    done(at, &["diagnose", "part.csv", "--model", "out/extended.toml", "--out", "again"]);
+    let again = std::fs::read_to_string(at.join("again/extended.toml")).unwrap();
+    std::fs::write(at.join("odd.toml"), again.replace("[fitted]\nrows", "[fitted]\nrow")).unwrap();
+    refused(at, &["check", "odd.toml"], &["unknown key `row`"]);
+}
+
 /// Under equal laws the 95 % interval of the difference excludes 0 in about 5 % of all data sets.
 #[test]
 fn equal_laws_are_told_apart_as_rarely_as_stated() {

@@ -84,3 +84,34 @@ impl ConstantCapture {
         Self { ceiling: Some(next), ..*self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The likelihood of 30 and 45 captures of 100 impacts each, with 0.4 and 0.8 by the laws, is largest at
+    /// `c = 0.610`: by a table of `30 ln 0.4 c + 70 ln(1 - 0.4 c) + 45 ln 0.8 c + 55 ln(1 - 0.8 c)`.
+    #[test]
+    fn the_ceiling_has_the_largest_likelihood() {
+        let log_likelihood = |c: f64| {
+            [(30.0, 0.4), (45.0, 0.8)]
+                .map(|(captured, p): (f64, f64)| {
+                    captured * (p * c).ln() + (100.0 - captured) * (1.0 - p * c).ln()
+                })
+                .iter()
+                .sum::<f64>()
+        };
+        let mut found = ConstantCapture { rate: 0.0, ceiling: Some(FIRST_CEILING) };
+        for _ in 0..20 {
+            let ceiling = found.ceiling.unwrap();
+            let rows = [[100.0, 0.3, 0.4 * ceiling], [100.0, 0.45, 0.8 * ceiling]];
+            found = found.stepped(rows.into_iter());
+        }
+        let table = (501..1000).map(|c| f64::from(c) / 1000.0);
+        let best = table.max_by(|a, b| log_likelihood(*a).total_cmp(&log_likelihood(*b))).unwrap();
+        assert!((found.ceiling.unwrap() - best).abs() < 1e-3, "{found:?}, {best}");
+        assert!(!found.at_bound());
+        let few = found.stepped([[100.0, 0.01, 0.5]].into_iter());
+        assert!(few.at_bound() && !ConstantCapture::default().at_bound());
+    }
+}

@@ -23,6 +23,7 @@ mod explanation;
 mod extend;
 mod few_rows;
 mod finding;
+mod fitted_rows;
 mod fitting;
 mod forecast;
 mod gain;
@@ -68,6 +69,7 @@ use crate::dataset::{BadRow, Measurement, Measurements};
 use choice::Task;
 use constants::{LEAST_ROWS, THOROUGH};
 use data_split::DataSplit;
+use fitted_rows::FittedRows;
 use groups::GroupColumn;
 use hypothesis::Hypothesis;
 use nearwall::impact::{INPUTS, Impact, Input};
@@ -195,6 +197,10 @@ fn examined(
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
+    let extended = match extended.trim_end() == task.text.trim_end() {
+        true => extended,
+        false => FittedRows::add_to(&extended, data, &fine.fit).map_err(unextendable)?,
+    };
     let draws = draws::draws(task.text, &hypothesis, draws, options.seed).map_err(unextendable)?;
     Ok((diagnosis, extended, draws))
 }

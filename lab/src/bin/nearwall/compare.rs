@@ -4,6 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use nearwall::Model;
+use nearwall::input::Document;
 use nearwall_lab::atomic_file::write_texts;
 use nearwall_lab::dataset::{ColumnMap, WallChoice};
 use nearwall_lab::diagnose::comparison::{ComparedModel, Comparison, compare};
@@ -47,11 +48,16 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         return Err(format!("--case {}: {problem}", case.display()).into());
     }
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
-    let models: Vec<Model> =
-        arguments.models.iter().map(|path| Model::from_file(path)).collect::<Result<_, _>>()?;
-    let candidate = |(path, model): (&PathBuf, _)| read(arguments, map.as_ref(), path, model);
+    let files: Vec<Document> =
+        arguments.models.iter().map(|path| Document::from_file(path)).collect::<Result<_, _>>()?;
+    let model = |file: &Document| Model::from_toml(file.name(), file.text());
+    let models: Vec<Model> = files.iter().map(model).collect::<Result<_, _>>()?;
+    let candidate = |(file, model): (&Document, _)| {
+        let read = read(arguments, map.as_ref(), file.name(), model)?;
+        Ok(read.with_fitted_rows(file.text()))
+    };
     let candidates: Vec<ComparedModel<'_>> =
-        arguments.models.iter().zip(&models).map(candidate).collect::<Result<_, _>>()?;
+        files.iter().zip(&models).map(candidate).collect::<Result<_, Box<dyn std::error::Error>>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
     crate::note(&notes);
     let file = arguments.data.display().to_string();
@@ -66,17 +72,16 @@ pub fn run(arguments: &Arguments) -> CommandResult {
 fn read<'a>(
     arguments: &Arguments,
     map: Option<&ColumnMap>,
-    path: &Path,
+    name: &str,
     model: &'a Model,
 ) -> Result<ComparedModel<'a>, Box<dyn std::error::Error>> {
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
-    let name = path.display().to_string();
     let of_model = |error| format!("{name}: {error}");
     let walls = WallChoice::new(model, arguments.wall.as_deref()).map_err(of_model)?;
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
     let source = bar.wrap_read(source);
-    let read = ComparedModel::read(name.clone(), model, &file, source, map, &walls);
+    let read = ComparedModel::read(name.to_owned(), model, &file, source, map, &walls);
     Ok(read.map_err(|error| match error {
         nearwall_lab::dataset::DatasetError::Wall(error) => of_model(error),
         other => other.to_string(),

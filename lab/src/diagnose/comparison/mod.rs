@@ -1,7 +1,8 @@
 //! Comparison: several models ranked on one file of measured impacts.
 //!
-//! No parameter of a model is fitted, so every row is held out. Only the scatter of `e_n` and `e_t`
-//! about each model is estimated, always on other rows than those that it scores. Intervals are
+//! No parameter of a model is fitted here. Only the scatter of `e_n` and `e_t` about each model is
+//! estimated, always on other rows than those that it scores. Rows that fitted a model before are
+//! counted, if its file states them. Intervals are
 //! those of a bootstrap over groups with the same resamples for all models. Method for users:
 //! `docs/compare.md`.
 
@@ -16,6 +17,7 @@ use std::io::Read;
 
 use super::constants::LEAST_ROWS;
 use super::fault;
+use super::fitted_rows::FittedRows;
 use crate::dataset::{ColumnMap, DatasetError, MOST_ROWS, Measurement, Measurements, WallChoice};
 use bootstrap::Bootstrap;
 use groups::RowGroups;
@@ -35,6 +37,8 @@ pub struct ComparedModel<'a> {
     data: Measurements,
     /// What of the whole file it cannot use.
     rows: ModelRows,
+    /// The rows that fitted it.
+    fitted: FittedRows,
 }
 
 impl<'a> ComparedModel<'a> {
@@ -69,7 +73,13 @@ impl<'a> ComparedModel<'a> {
         let mut unselected = |row| counts.add(model, &row);
         let data = Measurements::read_at_most(file, source, map, walls, most, &mut unselected)?;
         data.rows.iter().for_each(|row| counts.add(model, row));
-        Ok(Self { name, model, rows: counts.finish(&data), data })
+        Ok(Self { name, model, rows: counts.finish(&data), data, fitted: FittedRows::default() })
+    }
+
+    /// The same with the rows that its file states as those that fitted it; `text` is that of the file.
+    #[must_use]
+    pub fn with_fitted_rows(self, text: &str) -> Self {
+        Self { fitted: FittedRows::stated(text), ..self }
     }
 
     /// The notes on the data.
@@ -106,6 +116,7 @@ impl RowCounts {
             undecided: self.refused + data.read - data.rows.len() - data.unselected.rows,
             first_reason: first.map(|(line, reason)| format!("line {line}: {reason}")),
             outside_range: self.outside_range,
+            fitted: 0,
         }
     }
 }
@@ -149,7 +160,11 @@ pub fn compare(candidates: &[ComparedModel<'_>], seed: u64) -> Result<Comparison
         scored.map(|(candidate, data)| ScoredRows::new(candidate.model, &data.rows, &folds)).collect();
     let totals: Vec<Totals> = scored.iter().map(|rows| Totals::new(rows, &groups)).collect();
     let bootstrap = Bootstrap::new(&totals, groups.count, seed);
-    let rows = candidates.iter().map(|candidate| candidate.rows.clone()).collect();
+    let rows = candidates.iter().zip(&common).map(|(candidate, data)| ModelRows {
+        fitted: data.rows.iter().filter(|row| candidate.fitted.contains(row)).count(),
+        ..candidate.rows.clone()
+    });
+    let rows = rows.collect();
     let is_selection = candidates.iter().any(|candidate| candidate.data.unselected.rows > 0);
     let selected = is_selection.then(|| common_lines(candidates, |_, _| true).len());
     let used = common[0].rows.len();

@@ -90,7 +90,7 @@ pub struct ModelResult {
     pub rows: ModelRows,
 }
 
-/// The rows that a model cannot use, or only outside its range.
+/// The rows that a model cannot use, or only outside its range, and those that fitted it.
 #[derive(Debug, Clone, Serialize)]
 pub struct ModelRows {
     /// Rows that it cannot decide, or that cannot be read.
@@ -99,6 +99,8 @@ pub struct ModelRows {
     pub first_reason: Option<String>,
     /// Rows outside the range that one of its laws is stated for; they are used.
     pub outside_range: usize,
+    /// Rows of those that rank the models which fitted it, as its file says.
+    pub fitted: usize,
 }
 
 /// The record of a comparison of the models `names`.
@@ -163,6 +165,7 @@ fn verdict(models: &[ModelResult], rows: GroupedRows) -> String {
     if !worse.is_empty() {
         text += &format!(" Worse, beyond chance: {worse}.");
     }
+    models.iter().for_each(|model| text += &fitted(model, rows.used));
     if rows.groups < RELIABLE_GROUPS {
         text += &format!(
             " With {} groups the intervals are too narrow; measure at least {RELIABLE_GROUPS}.",
@@ -170,4 +173,17 @@ fn verdict(models: &[ModelResult], rows: GroupedRows) -> String {
         );
     }
     text
+}
+
+/// What the rows that fitted a model, of so many, make of its comparison.
+fn fitted(ModelResult { model, rows, .. }: &ModelResult, used: usize) -> String {
+    match rows.fitted {
+        0 => String::new(),
+        count if count == used => format!(
+            " All {used} rows fitted {model}: the comparison only measures its fit. Compare it on other rows."
+        ),
+        count => format!(
+            " {count} of {used} rows of this file fitted {model}: the comparison is not a test of it. Leave them out."
+        ),
+    }
 }

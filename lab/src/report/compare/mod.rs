@@ -27,7 +27,7 @@ const MEASURES: [Shown; 4] = [
 
 /// What every reader of the numbers has to know.
 const METHOD: [&str; 3] = [
-    "No parameter of a model is fitted, so every row is held out. The scatter of e_n and e_t about each model is estimated on \
+    "No parameter of a model is fitted here: rows are held out if they did not fit the model before. The scatter of e_n and e_t about each model is estimated on \
      four fifths of the groups and used for the log likelihood of the others.",
     "The models are ranked by the mean log likelihood of a row, all observables together. Stated standard errors weigh there; \
      the root mean square errors count each reading once, the log loss each impact.",
@@ -97,13 +97,15 @@ fn tables(comparison: &Comparison) -> Vec<Table> {
     let row = |model: &ModelResult| {
         let rows = &model.rows;
         let reason = rows.first_reason.clone().unwrap_or_default();
-        vec![model.model.clone(), rows.undecided.to_string(), rows.outside_range.to_string(), reason]
+        let counts = [rows.fitted, rows.undecided, rows.outside_range].map(|count| count.to_string());
+        std::iter::once(model.model.clone()).chain(counts).chain([reason]).collect()
     };
-    let header = ["model", "not decided", "outside its range", "the first row that is not decided"];
+    let header =
+        ["model", "fitted it", "not decided", "outside its range", "the first row that is not decided"];
     let rows = comparison.models.iter().map(row).collect();
     tables.push(Table::new(
         "Rows of each model; those outside the range of a law are used",
-        4,
+        5,
         &header,
         rows,
     ));
