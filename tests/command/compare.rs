@@ -248,8 +248,9 @@ fn rows_that_fitted_a_model_are_counted() {
     let unseen = diagnosis["rows"]["held_out_lines"].as_array().unwrap();
     assert!((40..100).contains(&unseen.len()), "{unseen:?}");
     let is_unseen = |place: usize| unseen.iter().any(|line| line.as_u64() == Some(place as u64 + 1));
-    let of = |wanted: bool| (1..241).filter(|place| is_unseen(*place) == wanted).map(|place| lines[place]);
-    let (held_out, fitted): (Vec<&str>, Vec<&str>) = (of(true).collect(), of(false).collect());
+    let (held_out, fitted): (Vec<usize>, Vec<usize>) = (1..241).partition(|place| is_unseen(*place));
+    let [held_out, fitted] =
+        [held_out, fitted].map(|places| places.iter().map(|place| lines[*place]).collect::<Vec<&str>>());
     let (count, printed) = compared_on(at, &lines[1..]);
     assert_eq!(count as usize, fitted.len());
     let sentence =
