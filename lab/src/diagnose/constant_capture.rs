@@ -9,7 +9,7 @@ use super::likelihood::Offset;
 /// Least ceiling that is one [1]: below, most of what the laws capture is not.
 const LEAST_CEILING: f64 = 0.5;
 /// Ceiling from which a fit starts [1].
-pub(super) const FIRST_CEILING: f64 = 0.9;
+const FIRST_CEILING: f64 = 0.9;
 
 /// One of the two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,6 +51,11 @@ impl ConstantCapture {
             CaptureConstant::Rate => Self { rate: 0.0, ..self },
             CaptureConstant::Ceiling => Self { ceiling: None, ..self },
         }
+    }
+
+    /// The same with a ceiling to be fitted.
+    pub fn free(self) -> Self {
+        Self { ceiling: self.ceiling.or(Some(FIRST_CEILING)), ..self }
     }
 
     /// Number of fitted parameters.

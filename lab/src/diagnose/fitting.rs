@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
-use super::constant_capture::{CaptureConstant, FIRST_CEILING};
+use super::constant_capture::CaptureConstant;
 use super::curve::ColumnCurveForm;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
@@ -239,7 +239,7 @@ impl<'a> CandidateRound<'a> {
                 joint.captures.rate = level.fit(&self.search)?.heights.first().copied()?;
             }
             CaptureConstant::Ceiling => {
-                joint.captures.ceiling = Some(FIRST_CEILING);
+                joint.captures = joint.captures.free();
                 let start = joint.coordinates();
                 if !start.is_empty() && !joint.is_stochastic() {
                     let cost = |at: &[f64]| cost(&joint, at, &self.search);

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use super::candidate::{Addition, Candidate, Class, ScoredCandidate};
 use super::candidate_list::candidates;
-use super::constant_capture::{CaptureConstant, ConstantCapture, FIRST_CEILING};
+use super::constant_capture::CaptureConstant;
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
@@ -156,7 +156,7 @@ impl<'a> ImpactSearch<'a> {
         let laws: Vec<Candidate> = laws.into_iter().take(self.refitted).map(|(_, law)| law).collect();
         let hypothesis = &of.fitted.hypothesis;
         let before = self.grounds[of.fitted.ground].scores(hypothesis);
-        let all = ConstantCapture { ceiling: Some(FIRST_CEILING), ..hypothesis.captures };
+        let all = hypothesis.captures.free();
         let addition =
             Addition::Captures { constant: CaptureConstant::Ceiling, all, others: hypothesis.parts.clone() };
         let bare = Hypothesis { captures: all, ..hypothesis.clone() };

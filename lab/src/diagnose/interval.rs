@@ -3,7 +3,7 @@
 //! The root of the profile ([`super::profile`]) reaches Student's quantile at the ends, times the
 //! square root of the factor by which units that scatter more than the model says widen the
 //! variance ([`super::covariance`]). Parameters that were left at their defaults are free beside
-//! the others: the data do not know that the defaults are right. An end at the bound of the search
+//! the others, and so is the ceiling of captures: the data do not know that the defaults are right. An end at the bound of the search
 //! range is that bound. Models that draw at random take too long for profiles: their intervals are
 //! symmetric in the coordinate.
 
@@ -46,6 +46,7 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
     let stochastic = hypothesis.is_stochastic();
     if !stochastic && units >= UNITS_FOR_DEFAULTS {
         freed.free_defaults();
+        freed.captures = freed.captures.free();
         freed.polish(rows);
     }
     let count = freed.coordinates().len();
@@ -66,7 +67,7 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
             }
         }
     }
-    if hypothesis.coordinates().len() == count {
+    if hypothesis.coordinates().len() == count && hypothesis.captures.freedom() == freed.captures.freedom() {
         *hypothesis = freed.clone();
     }
     // A profile that finds a better fit again and again has no ends.
