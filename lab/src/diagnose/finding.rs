@@ -4,18 +4,15 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::{CauseChoice, distinct};
+use super::choice::CauseChoice;
 use super::curve::ColumnCurve;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
-use super::record::{Alternative, Calibration, CauseCurve, CauseSurface, Finding};
+use super::record::{Calibration, CauseCurve, CauseSurface, Finding};
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
-
-/// Largest number of alternatives listed.
-const ALTERNATIVES: usize = 6;
 
 /// Builds findings from the final fit.
 pub(super) struct FindingBuilder<'a> {
@@ -55,7 +52,8 @@ impl FindingBuilder<'_> {
     pub fn finding(&self, winner: &ScoredCandidate) -> Finding {
         let cause = self.name(winner);
         let observable = self.observable(winner);
-        let rivals = self.indistinguishable(&cause);
+        let explanations = &self.choice.explanations;
+        let rivals = explanations.in_stead_of(&cause);
         let advice =
             |rival: &String| advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival);
         let mut finding = Finding {
@@ -64,14 +62,14 @@ impl FindingBuilder<'_> {
             gain: winner.gain(),
             chi_square: 2.0 * (winner.gain() + winner.addition.freedom()),
             sigma: sigma(winner.q_value),
-            probability: self.choice.probability(&cause),
-            certainty: self.choice.certainty(&cause),
+            probability: explanations.probability(&cause),
+            certainty: explanations.certainty(&cause),
             lack_of_fit: self.lack_of_fit(winner),
             not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
             p_value: winner.p_value,
             q_value: winner.q_value,
             parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
-            alternatives: self.alternatives(&cause),
+            alternatives: explanations.alternatives(&cause),
             measure_next: rivals.iter().filter_map(advice).collect(),
             indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
@@ -117,31 +115,6 @@ impl FindingBuilder<'_> {
         let mut with = self.hypothesis.clone();
         with.fit_discrepancy();
         with.lack_of_fit()
-    }
-
-    /// Other causes, the most probable first.
-    fn alternatives(&self, cause: &str) -> Vec<Alternative> {
-        let choice = self.choice;
-        let gain = choice.explanations.first().map_or(0.0, |best| best.gain);
-        let mut all: Vec<Alternative> = Vec::new();
-        for one in choice.explanations.iter().filter(|one| !one.has(cause) && one.rival.is_none()) {
-            for name in one.causes.iter().filter(|name| !choice.is_in_best(name)) {
-                if all.iter().all(|known| known.cause != *name) {
-                    let (score_difference, probability) = (gain - one.gain, choice.probability(name));
-                    all.push(Alternative { cause: name.clone(), score_difference, probability });
-                }
-            }
-        }
-        all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-        all.truncate(ALTERNATIVES);
-        all
-    }
-
-    /// Causes in whose stead this one stands, in the explanations that hold 95 %.
-    fn indistinguishable(&self, cause: &str) -> Vec<String> {
-        let others = self.choice.listed().iter().filter(|one| !one.has(cause));
-        let open = others.flat_map(|one| &one.causes).filter(|name| !self.choice.is_in_best(name));
-        distinct(open)
     }
 
     /// A curve of one column for the page.

@@ -19,6 +19,7 @@ mod data_view;
 mod draws;
 mod evaluation;
 mod explanation;
+mod explanations;
 mod extend;
 mod few_rows;
 mod finding;
