@@ -117,18 +117,19 @@ impl Group {
         let largest = (BEYOND_MISFIT * misfit).min(LARGEST[usize::from(counted)]);
         let range = (1.0 + largest / unit).ln().max(1.0);
         let step = range / (GRID - 1) as f64;
-        // Probability of a scatter below the middle between a place and the one before it.
-        let below = |place: usize| {
-            let square = (step * (place as f64 - 0.5)).exp_m1();
-            if place < 2 { 0.0 } else { square.sqrt().atan() * std::f64::consts::FRAC_2_PI }
+        // Probability of a scatter below the middle between a place and the next one.
+        let below =
+            |place: usize| (step * (place as f64 + 0.5)).exp_m1().sqrt().atan() * std::f64::consts::FRAC_2_PI;
+        let prior = |place: usize| match place {
+            0 => COMPLETE + (1.0 - COMPLETE) * below(0),
+            _ => (1.0 - COMPLETE) * (below(place) - below(place - 1)),
         };
-        let rest = |place: usize| (1.0 - COMPLETE) * (below(place + 1) - below(place));
         Self {
             kind,
             counted,
             unit,
             squares: std::array::from_fn(|place| unit * (step * place as f64).exp_m1()),
-            prior: std::array::from_fn(|place| if place == 0 { COMPLETE } else { rest(place) }.ln()),
+            prior: std::array::from_fn(|place| prior(place).ln()),
         }
     }
 
