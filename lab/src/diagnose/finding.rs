@@ -6,10 +6,12 @@ use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
 use super::choice::CauseChoice;
 use super::curve::ColumnCurve;
+use super::explanations::FoundExplanation;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
-use super::record::{Calibration, CauseCurve, CauseSurface, Finding};
+use super::reach::Reach;
+use super::record::{Calibration, CauseCurve, CauseSurface, Finding, NextMeasurement};
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
@@ -19,7 +21,12 @@ pub(super) struct FindingBuilder<'a> {
     /// After the final fit.
     pub hypothesis: &'a Hypothesis<'a>,
     pub choice: &'a CauseChoice,
+    /// What can be varied in the next measurement.
+    pub reach: &'a [Reach],
 }
+
+/// Most explanations from which the most probable one is told by a measurement.
+const MOST_TOLD: usize = 3;
 
 impl FindingBuilder<'_> {
     fn name(&self, scored: &ScoredCandidate) -> String {
@@ -54,8 +61,10 @@ impl FindingBuilder<'_> {
         let observable = self.observable(winner);
         let explanations = &self.choice.explanations;
         let rivals = explanations.in_stead_of(&cause);
-        let advice =
-            |rival: &String| advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival);
+        let advice = |rival: &String| {
+            let other = self.alone(self.choice.addition(rival)?);
+            advise([&self.alone(winner), &other], [&cause, rival], self.reach)
+        };
         let mut finding = Finding {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
@@ -70,7 +79,7 @@ impl FindingBuilder<'_> {
             q_value: winner.q_value,
             parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
             alternatives: explanations.alternatives(&cause),
-            measure_next: rivals.iter().filter_map(advice).collect(),
+            measure_next: rivals.iter().filter_map(&advice).collect(),
             indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
             surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
@@ -79,6 +88,30 @@ impl FindingBuilder<'_> {
         };
         finding.explanation = explain(&finding, observable);
         finding
+    }
+
+    /// The measurements that tell the most probable explanation from the others.
+    pub fn separating(&self) -> Vec<NextMeasurement> {
+        let mut listed = self.choice.explanations.listed().iter().filter(|one| one.is_physics());
+        let Some(first) = listed.next() else { return Vec::new() };
+        let measurement = |other: &FoundExplanation<ScoredCandidate>| {
+            let names = [first, other].map(|one| one.told.causes.join(" and "));
+            let [one, two] = [first, other].map(|one| self.explained(one));
+            advise([&one, &two], [&names[0], &names[1]], self.reach)
+        };
+        listed
+            .filter(|one| one.told.causes != first.told.causes)
+            .take(MOST_TOLD)
+            .filter_map(measurement)
+            .collect()
+    }
+
+    /// The base model with what an explanation adds.
+    fn explained(&self, one: &FoundExplanation<ScoredCandidate>) -> Hypothesis<'_> {
+        let mut hypothesis =
+            Hypothesis::with_parts(self.hypothesis.data, Vec::new(), self.hypothesis.scatter);
+        one.told.additions.iter().for_each(|scored| scored.addition.add_to(&mut hypothesis));
+        hypothesis
     }
 
     /// The curve of this addition after the final fit.

@@ -49,7 +49,7 @@ pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f
 /// The record without rows, errors, misfits, gains, verdict and sample.
 pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options: &Options) -> Diagnosis {
     let data = hypothesis.data;
-    let builder = FindingBuilder { hypothesis, choice };
+    let builder = FindingBuilder { hypothesis, choice, reach: &options.reach };
     let mut findings: Vec<Finding> = Vec::new();
     let mut calibration = Vec::new();
     for discovery in &choice.discoveries {
@@ -63,6 +63,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
             findings.push(finding);
         }
     }
+    let undecided = if choice.discoveries.is_empty() { choice.explanations.undecided() } else { Vec::new() };
     let scatter = |observable: Observable| {
         let observed = data.rows.iter().any(|row| observable.measured(row).is_some());
         if observed { hypothesis.scatter[observable as usize] } else { 0.0 }
@@ -76,7 +77,8 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         calibration,
         explanations: choice.explanations.record(),
         rivals: choice.explanations.rivals(main_observable(choice)),
-        undecided: if choice.discoveries.is_empty() { choice.explanations.undecided() } else { Vec::new() },
+        measure_next: if undecided.is_empty() { Vec::new() } else { builder.separating() },
+        undecided,
         scatter: ScatterFound {
             e_n: scatter(Observable::NormalRestitution),
             e_t: scatter(Observable::TangentialRestitution),

@@ -31,6 +31,7 @@ use toml_edit::InlineTable;
 use super::constants::THOROUGH_RIG;
 use super::extend::ranges;
 use super::first_reasons;
+use super::reach::Reach;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseText, Forward, PredictionError};
@@ -59,6 +60,9 @@ pub enum RigError {
     /// The model cannot decide an impact of an experiment.
     #[error(transparent)]
     Undecided(#[from] PredictionError),
+    /// A range for the next measurement of what is no number of the case.
+    #[error("the next experiment cannot vary `{0}`: it is no number of the case; write a dotted key, as particles.speed")]
+    NoNumber(String),
     /// The text of the base model cannot be edited.
     #[error("the model file cannot be extended: {0}")]
     Unextendable(String),
@@ -87,6 +91,10 @@ pub fn diagnose_rig(
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });
     }
+    let is_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
+    if let Some(reach) = options.reach.iter().find(is_number) {
+        return Err(RigError::NoNumber(reach.name.clone()));
+    }
     let study = RigStudy::new(forward, options.seed, progress)?;
     let all = vec![1.0; study.data.experiments];
     let valid = valid(forward);
@@ -106,7 +114,7 @@ pub fn diagnose_rig(
     let text = extended_text(model, &additions, &valid);
     let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;
     let next = match case {
-        Some(case) => next::next_experiments(&study, &choice, &posterior, data, case)?,
+        Some(case) => next::next_experiments(&study, &choice, &posterior, (data, case), &options.reach)?,
         None => Vec::new(),
     };
     let drawn = posterior.draws(draws, options.seed);

@@ -17,6 +17,7 @@
 use serde::Serialize;
 
 use super::super::explanations::FoundExplanation;
+use super::super::reach::Reach;
 use super::addition::{RigAddition, moved};
 use super::choice::RigChoice;
 use super::noise::PreparedReadings;
@@ -132,11 +133,11 @@ pub(super) fn next_experiments(
     study: &RigStudy<'_>,
     choice: &RigChoice,
     posterior: &Posterior,
-    data: &RigMeasurements,
-    text: &CaseText,
+    (data, text): (&RigMeasurements, &CaseText),
+    reach: &[Reach],
 ) -> Result<Vec<NextExperiment>, PredictionError> {
     let columns = columns(study, choice, data)?;
-    let experiments: Vec<Experiment> = proposals(data, text)
+    let experiments: Vec<Experiment> = proposals(data, text, reach)
         .into_iter()
         .enumerate()
         .map(|(number, settings)| {
