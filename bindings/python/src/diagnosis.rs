@@ -30,7 +30,7 @@ pub fn diagnose(
 ) -> PyResult<DiagnosisOutput> {
     let (name, text) = model;
     run(py, move |tick| {
-        let options = Options { seed, level, group };
+        let options = Options { seed, level, group, ..Options::default() };
         let document = Document::new(name.as_str(), text);
         let diagnosis = ImpactDiagnosis::new(document, columns.as_deref(), wall.as_deref(), options)?;
         let measured = diagnosis.read(data.name(), data.open()?)?;

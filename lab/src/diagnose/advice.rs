@@ -1,6 +1,7 @@
 //! The measurement that would distinguish two causes.
 //!
-//! Each input in turn varies over its range and a quarter beyond, with all others at their medians.
+//! Each input in turn varies over the range that the laboratory states, or over twice that of the data,
+//! with all others at their medians.
 //! The best place to measure is where the predictions of the two fitted models differ most,
 //! relative to the scatter. The number of impacts is that of a comparison of two groups, one at
 //! each end, with 5 % false alarms and 80 % power: `n = 2 · 2 (1.96 + 0.84)² (scatter /
@@ -10,9 +11,10 @@ use super::forecast::Forecast;
 use super::hypothesis::Hypothesis;
 use super::likelihood::{Offset, mean};
 use super::observable::Observable;
+use super::reach::Reach;
 use super::record::NextMeasurement;
 use crate::dataset::Measurement;
-use nearwall::impact::INPUTS;
+use nearwall::impact::{INPUTS, Input};
 
 /// Places along an input.
 const INPUT_STEPS: usize = 9;
@@ -23,14 +25,15 @@ const MOST_ADVISED_IMPACTS: f64 = 1e5;
 /// Scatter of a capture [1].
 const CAPTURE_SCATTER: f64 = 0.5;
 
-/// The measurement that best distinguishes two hypotheses; `None` if no single input does.
-pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str) -> Option<NextMeasurement> {
+/// The measurement that best distinguishes two hypotheses with their names; `None` if no single input does.
+pub(super) fn advise(
+    [found, other]: [&Hypothesis<'_>; 2],
+    [cause, against]: [&str; 2],
+    reach: &[Reach],
+) -> Option<NextMeasurement> {
     let middle = median_row(found)?;
     let candidates = INPUTS.iter().filter_map(|input| {
-        let [low, high] = found.data.range(input.name)?;
-        let beyond = 0.25 * (high - low);
-        let first = if low > 0.0 { (low - beyond).max(0.5 * low) } else { low };
-        let last = if input.unit == "1" { high } else { high + beyond };
+        let [first, last] = range(input, found, reach)?;
         let row = |step: usize| {
             let mut row = middle;
             (input.set)(&mut row.impact, first + step as f64 / (INPUT_STEPS - 1) as f64 * (last - first));
@@ -39,7 +42,8 @@ pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str)
         let rows: Vec<Measurement> = (0..INPUT_STEPS).map(row).collect();
         let (impacts, observable, ends) = best_contrast(&rows, found, other)?;
         Some(NextMeasurement {
-            against: name.to_owned(),
+            cause: cause.to_owned(),
+            against: against.to_owned(),
             vary: input.name.to_owned(),
             range: ends.map(|step| (input.value)(&rows[step].impact)),
             unit: input.unit,
@@ -48,6 +52,17 @@ pub(super) fn advise(found: &Hypothesis<'_>, other: &Hypothesis<'_>, name: &str)
         })
     });
     candidates.min_by_key(|measure| measure.impacts)
+}
+
+/// The range of an input in the next measurement; `None` where it cannot be varied.
+fn range(input: &Input, found: &Hypothesis<'_>, reach: &[Reach]) -> Option<[f64; 2]> {
+    if !reach.is_empty() {
+        return reach.iter().find(|one| one.name == input.name).map(|one| one.range);
+    }
+    let [low, high] = found.data.range(input.name)?;
+    let beyond = 0.5 * (high - low);
+    let first = if low > 0.0 { (low - beyond).max(0.5 * low) } else { low };
+    Some([first, if input.unit == "1" { high } else { high + beyond }])
 }
 
 /// Least number of impacts, the observable to measure and the two rows to compare.

@@ -1,13 +1,12 @@
 //! A choice among explanations on some rows, and the model file that follows from it.
 
-use std::collections::BTreeSet;
-
 use super::candidate::ScoredCandidate;
 use super::constant_capture::ConstantCapture;
-use super::constants::{Effort, LISTED, NAMED};
+use super::constants::Effort;
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::explanation::explore;
+use super::explanations::{Explanations, Told, distinct};
 use super::extend;
 use super::ground::{Ground, grounds};
 use super::groups::GroupColumn;
@@ -16,7 +15,6 @@ use super::impact_search::{ImpactExplanation, ImpactSearch, evidence};
 use super::interval::set_intervals;
 use super::likelihood::Scatter;
 use super::part::FittedPart;
-use super::probability::Probabilities;
 use super::record::GroupsFound;
 use super::shared_error::SharedErrors;
 
@@ -32,37 +30,13 @@ pub(super) struct Task<'a> {
     pub progress: &'a (dyn Fn() + Sync),
 }
 
-/// An explanation without the rows.
-#[derive(Debug, Clone)]
-pub(super) struct FoundExplanation {
-    /// Ids of its causes and of its rival, in alphabetical order; none for the base model as it is.
-    pub causes: Vec<String>,
-    /// Its additions, in the order in which they joined.
-    pub additions: Vec<ScoredCandidate>,
-    /// Id and question of another reading of the rows.
-    pub rival: Option<(String, String)>,
-    /// Probability of it [1].
-    pub probability: f64,
-    /// Share of the draws in which it is the most likely one [1].
-    pub first: f64,
-    /// Gain in log likelihood over the base model, less its number of parameters [nats].
-    pub gain: f64,
-}
-
-impl FoundExplanation {
-    /// Whether a cause or a rival takes part.
-    pub fn has(&self, cause: &str) -> bool {
-        self.causes.iter().any(|own| own == cause)
-    }
-}
-
 /// The result of a choice on the fitted rows of a [`DataSplit`].
 #[derive(Clone)]
 pub(super) struct CauseChoice {
     /// The rows, with the groups' shared errors if they have any.
     pub data: DataSplit,
     /// What the search visited, the most probable first.
-    pub explanations: Vec<FoundExplanation>,
+    pub explanations: Explanations<ScoredCandidate>,
     /// The additions that are named, in the order in which they joined.
     pub discoveries: Vec<ScoredCandidate>,
     /// Smallest corrected p-value of a candidate beside the base model, and beside what is named.
@@ -133,22 +107,11 @@ fn causes(one: &ImpactExplanation<'_>, ground: &Ground) -> Vec<String> {
     names
 }
 
-/// Names in the order of their first appearance.
-pub(super) fn distinct<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
-    let mut seen = BTreeSet::new();
-    names.filter(|name| seen.insert(*name)).cloned().collect()
-}
-
-/// Probability that a cause takes part [1].
-fn probability(explanations: &[FoundExplanation], cause: &str) -> f64 {
-    explanations.iter().filter(|one| one.has(cause)).map(|one| one.probability).sum()
-}
-
 /// Smallest corrected p-value of a candidate beside these causes.
-fn smallest_beside(explanations: &[FoundExplanation], causes: &[String]) -> f64 {
-    let larger = explanations.iter().filter(|one| one.causes.len() == causes.len() + 1);
-    let beside = larger.filter(|one| one.rival.is_none() && causes.iter().all(|cause| one.has(cause)));
-    let last = beside.filter_map(|one| one.additions.last()).filter(|one| one.addition.is_systematic());
+fn smallest_beside(explanations: &Explanations<ScoredCandidate>, causes: &[String]) -> f64 {
+    let larger = explanations.all().iter().filter(|one| one.told.causes.len() == causes.len() + 1);
+    let beside = larger.filter(|one| one.is_physics() && causes.iter().all(|cause| one.has(cause)));
+    let last = beside.filter_map(|one| one.told.additions.last()).filter(|one| one.addition.is_systematic());
     last.map(|one| one.q_value).fold(1.0, f64::min)
 }
 
@@ -163,20 +126,13 @@ impl CauseChoice {
         let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
         let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();
-        let probabilities = Probabilities::new(&visited, evidence, &units);
-        let base = evidence.base;
-        let found = |(place, one): (usize, &ImpactExplanation<'_>)| FoundExplanation {
+        let told = |one: &ImpactExplanation<'_>| Told {
             causes: causes(one, ground(one)),
             additions: one.fitted.found.clone(),
             rival: ground(one).question.clone().map(|question| (ground(one).key.clone(), question)),
-            probability: probabilities.of[place],
-            first: probabilities.first[place],
-            gain: one.score() - base - one.freedom,
         };
-        let mut order: Vec<usize> = (0..visited.len()).collect();
-        order.sort_by(|&a, &b| probabilities.of[b].total_cmp(&probabilities.of[a]));
-        let explanations: Vec<_> = order.iter().map(|&place| found((place, &visited[place]))).collect();
-        let best = order.first().map(|&place| &visited[place]);
+        let explanations = Explanations::new(&visited, evidence, &units, told);
+        let best = explanations.best().map(|best| &visited[best.place]);
         Self::of(data, &grounds, best, explanations)
     }
 
@@ -185,19 +141,14 @@ impl CauseChoice {
         data: &DataSplit,
         grounds: &[Ground],
         best: Option<&ImpactExplanation<'_>>,
-        explanations: Vec<FoundExplanation>,
+        explanations: Explanations<ScoredCandidate>,
     ) -> Self {
         let ground = best.map_or(0, |best| best.fitted.ground);
         // A rival asks the user before any physics is named.
         let data = if grounds[ground].is_rival() { data } else { &grounds[ground].data };
         let hypothesis = best.map_or_else(|| Hypothesis::base(data), |best| best.fitted.hypothesis.clone());
-        let named = |one: &&ScoredCandidate| {
-            one.addition.is_systematic() && probability(&explanations, &one.addition.name(data)) >= NAMED
-        };
-        let additions = explanations.first().map_or(&[][..], |first| first.additions.as_slice());
-        let rival = explanations.first().is_some_and(|first| first.rival.is_some());
-        let discoveries: Vec<ScoredCandidate> =
-            if rival { Vec::new() } else { additions.iter().filter(named).cloned().collect() };
+        let name = |one: &ScoredCandidate| one.addition.is_systematic().then(|| one.addition.name(data));
+        let discoveries = explanations.named(name);
         let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
         let state = FoundParts::of(&hypothesis, &keys);
         let causes: Vec<String> = discoveries.iter().map(|one| one.addition.name(data)).collect();
@@ -213,46 +164,10 @@ impl CauseChoice {
         choice
     }
 
-    /// Probability that a cause or a rival takes part in the explanation [1].
-    pub fn probability(&self, cause: &str) -> f64 {
-        probability(&self.explanations, cause)
-    }
-
-    /// Share of the draws in which an explanation with this cause is the most likely one [1].
-    pub fn certainty(&self, cause: &str) -> f64 {
-        self.explanations.iter().filter(|one| one.has(cause)).map(|one| one.first).sum()
-    }
-
-    /// The smallest number of explanations that hold 95 %, the most probable first.
-    pub fn listed(&self) -> &[FoundExplanation] {
-        let mut held = 0.0;
-        let inside = |one: &&FoundExplanation| {
-            let open = held < LISTED;
-            held += one.probability;
-            open
-        };
-        &self.explanations[..self.explanations.iter().take_while(inside).count()]
-    }
-
     /// The most probable addition of this name.
     pub fn addition(&self, cause: &str) -> Option<&ScoredCandidate> {
-        let mut all = self.explanations.iter().flat_map(|one| &one.additions);
+        let mut all = self.explanations.all().iter().flat_map(|one| &one.told.additions);
         all.find(|one| one.addition.name(&self.data) == cause)
-    }
-
-    /// Whether a cause is in the most probable explanation.
-    pub fn is_in_best(&self, cause: &str) -> bool {
-        self.explanations.first().is_some_and(|best| best.has(cause))
-    }
-
-    /// Additions that were fitted alone beside the base model.
-    pub fn singles(&self) -> impl Iterator<Item = &ScoredCandidate> {
-        self.explanations.iter().filter(|one| one.rival.is_none()).filter_map(
-            |one| match &one.additions[..] {
-                [single] => Some(single),
-                _ => None,
-            },
-        )
     }
 
     /// The errors that groups share beside the causes.

@@ -13,7 +13,7 @@
 //! each of those that it has.
 
 /// Ratio of evidence beyond which an explanation is not pursued, as a logarithm [nats]: 20 to 1.
-const WINDOW: f64 = 3.0;
+pub(super) const WINDOW: f64 = 3.0;
 
 /// An explanation with everything fitted.
 #[derive(Debug, Clone)]

@@ -4,25 +4,29 @@ use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::advice::advise;
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::{CauseChoice, distinct};
+use super::choice::CauseChoice;
 use super::curve::ColumnCurve;
+use super::explanations::FoundExplanation;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
-use super::record::{Alternative, Calibration, CauseCurve, CauseSurface, Finding};
+use super::reach::Reach;
+use super::record::{Calibration, CauseCurve, CauseSurface, Finding, NextMeasurement};
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
-
-/// Largest number of alternatives listed.
-const ALTERNATIVES: usize = 6;
 
 /// Builds findings from the final fit.
 pub(super) struct FindingBuilder<'a> {
     /// After the final fit.
     pub hypothesis: &'a Hypothesis<'a>,
     pub choice: &'a CauseChoice,
+    /// What can be varied in the next measurement.
+    pub reach: &'a [Reach],
 }
+
+/// Most explanations from which the most probable one is told by a measurement.
+const MOST_TOLD: usize = 3;
 
 impl FindingBuilder<'_> {
     fn name(&self, scored: &ScoredCandidate) -> String {
@@ -55,24 +59,27 @@ impl FindingBuilder<'_> {
     pub fn finding(&self, winner: &ScoredCandidate) -> Finding {
         let cause = self.name(winner);
         let observable = self.observable(winner);
-        let rivals = self.indistinguishable(&cause);
-        let advice =
-            |rival: &String| advise(&self.alone(winner), &self.alone(self.choice.addition(rival)?), rival);
+        let explanations = &self.choice.explanations;
+        let rivals = explanations.in_stead_of(&cause);
+        let advice = |rival: &String| {
+            let other = self.alone(self.choice.addition(rival)?);
+            advise([&self.alone(winner), &other], [&cause, rival], self.reach)
+        };
         let mut finding = Finding {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
             gain: winner.gain(),
             chi_square: 2.0 * (winner.gain() + winner.addition.freedom()),
             sigma: sigma(winner.q_value),
-            probability: self.choice.probability(&cause),
-            certainty: self.choice.certainty(&cause),
+            probability: explanations.probability(&cause),
+            certainty: explanations.certainty(&cause),
             lack_of_fit: self.lack_of_fit(winner),
             not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
             p_value: winner.p_value,
             q_value: winner.q_value,
             parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
-            alternatives: self.alternatives(&cause),
-            measure_next: rivals.iter().filter_map(advice).collect(),
+            alternatives: explanations.alternatives(&cause),
+            measure_next: rivals.iter().filter_map(&advice).collect(),
             indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
             surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
@@ -81,6 +88,30 @@ impl FindingBuilder<'_> {
         };
         finding.explanation = explain(&finding, observable);
         finding
+    }
+
+    /// The measurements that tell the most probable explanation from the others.
+    pub fn separating(&self) -> Vec<NextMeasurement> {
+        let mut listed = self.choice.explanations.listed().iter().filter(|one| one.is_physics());
+        let Some(first) = listed.next() else { return Vec::new() };
+        let measurement = |other: &FoundExplanation<ScoredCandidate>| {
+            let names = [first, other].map(|one| one.told.causes.join(" and "));
+            let [one, two] = [first, other].map(|one| self.explained(one));
+            advise([&one, &two], [&names[0], &names[1]], self.reach)
+        };
+        listed
+            .filter(|one| one.told.causes != first.told.causes)
+            .take(MOST_TOLD)
+            .filter_map(measurement)
+            .collect()
+    }
+
+    /// The base model with what an explanation adds.
+    fn explained(&self, one: &FoundExplanation<ScoredCandidate>) -> Hypothesis<'_> {
+        let mut hypothesis =
+            Hypothesis::with_parts(self.hypothesis.data, Vec::new(), self.hypothesis.scatter);
+        one.told.additions.iter().for_each(|scored| scored.addition.add_to(&mut hypothesis));
+        hypothesis
     }
 
     /// The curve of this addition after the final fit.
@@ -117,31 +148,6 @@ impl FindingBuilder<'_> {
         let mut with = self.hypothesis.clone();
         with.fit_discrepancy();
         with.lack_of_fit()
-    }
-
-    /// Other causes, the most probable first.
-    fn alternatives(&self, cause: &str) -> Vec<Alternative> {
-        let choice = self.choice;
-        let gain = choice.explanations.first().map_or(0.0, |best| best.gain);
-        let mut all: Vec<Alternative> = Vec::new();
-        for one in choice.explanations.iter().filter(|one| !one.has(cause) && one.rival.is_none()) {
-            for name in one.causes.iter().filter(|name| !choice.is_in_best(name)) {
-                if all.iter().all(|known| known.cause != *name) {
-                    let (score_difference, probability) = (gain - one.gain, choice.probability(name));
-                    all.push(Alternative { cause: name.clone(), score_difference, probability });
-                }
-            }
-        }
-        all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-        all.truncate(ALTERNATIVES);
-        all
-    }
-
-    /// Causes in whose stead this one stands, in the explanations that hold 95 %.
-    fn indistinguishable(&self, cause: &str) -> Vec<String> {
-        let others = self.choice.listed().iter().filter(|one| !one.has(cause));
-        let open = others.flat_map(|one| &one.causes).filter(|name| !self.choice.is_in_best(name));
-        distinct(open)
     }
 
     /// A curve of one column for the page.

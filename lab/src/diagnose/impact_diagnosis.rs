@@ -73,7 +73,7 @@ impl ImpactDiagnosis {
         let text = self.document.text();
         diagnose_with_draws(&self.model, text, data, &self.options, draws, progress).map_err(|reason| {
             let file = match reason {
-                DiagnosisError::TooFewRows { .. } => &data.file,
+                DiagnosisError::TooFewRows { .. } | DiagnosisError::NoInput { .. } => &data.file,
                 DiagnosisError::Unextendable(_) => self.document.name(),
             };
             FileDiagnosisError { file: file.to_owned(), reason }

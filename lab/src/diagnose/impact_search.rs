@@ -19,7 +19,7 @@ use super::likelihood::SMALLEST_SCATTER;
 use super::observable::Observable;
 
 /// Prior odds of each addition after the first, over those of the one before [1].
-const FURTHER: f64 = 0.3;
+pub(super) const FURTHER: f64 = 0.3;
 
 /// Effort of an expansion beside an effect with random draws, in that of the base model.
 const RANDOM_DRAWS: usize = 5;
@@ -294,6 +294,6 @@ fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit
 
 /// Logarithm of the prior probability of one addition of a class with so many candidates, over that
 /// of none [nats].
-fn surprise(class: Class, candidates: usize) -> f64 {
+pub(super) fn surprise(class: Class, candidates: usize) -> f64 {
     (class.prior() / candidates.max(1) as f64).ln()
 }

@@ -20,6 +20,7 @@ mod data_view;
 mod draws;
 mod evaluation;
 mod explanation;
+mod explanations;
 mod extend;
 mod few_rows;
 mod finding;
@@ -42,6 +43,7 @@ mod observable;
 mod part;
 mod probability;
 mod profile;
+mod reach;
 mod reading;
 mod record;
 pub mod rig;
@@ -58,6 +60,7 @@ mod unselected;
 mod verdict;
 
 pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
+pub use reach::{Reach, ReachError};
 pub use record::{
     Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate,
     ExplanationFound, Finding, Fit, FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement,
@@ -95,6 +98,14 @@ pub enum DiagnosisError {
     /// The text of the base model cannot be edited.
     #[error("the model file cannot be extended: {0}")]
     Unextendable(String),
+    /// A range for the next measurement of something that is no input.
+    #[error("the next measurement cannot vary `{name}`: the inputs of an impact are {inputs}")]
+    NoInput {
+        /// The name.
+        name: String,
+        /// The names of the inputs.
+        inputs: String,
+    },
 }
 
 /// Bounds of a plausible input [SI units], far beyond any laboratory; the lower one for inputs that laws divide by.
@@ -132,6 +143,10 @@ pub fn diagnose_with_draws(
     draws: usize,
     progress: &(dyn Fn() + Sync),
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
+    if let Some(reach) = options.reach.iter().find(|one| INPUTS.iter().all(|input| input.name != one.name)) {
+        let inputs = INPUTS.map(|input| input.name).join(", ");
+        return Err(DiagnosisError::NoInput { name: reach.name.clone(), inputs });
+    }
     let data = usable(base, data)?;
     let groups = GroupColumn::all(&data, options.group.as_deref());
     let whole = DataSplit::new(base, &data, &groups);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use super::reach::Reach;
 use crate::dataset::BadRow;
 
 /// Options of a diagnosis.
@@ -16,11 +17,13 @@ pub struct Options {
     /// The column of labels that tells groups of rows apart; `None` for those that
     /// [`crate::dataset::names_groups`] accepts.
     pub group: Option<String>,
+    /// What can be varied in the next measurement; none for all inputs that vary, up to twice their range.
+    pub reach: Vec<Reach>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { seed: 1, level: 0.05, group: None }
+        Self { seed: 1, level: 0.05, group: None, reach: Vec::new() }
     }
 }
 
@@ -51,6 +54,8 @@ pub struct Diagnosis {
     pub explanations: Vec<ExplanationFound>,
     /// Causes of which one takes part, if these data cannot tell which; then there is no finding for them.
     pub undecided: Vec<String>,
+    /// The measurements that would decide between the explanations, where none is named.
+    pub measure_next: Vec<NextMeasurement>,
     /// Causes that were left out: with them the model predicts rows that it has not seen worse.
     pub refuted: Vec<String>,
     /// Slips of input and artefacts of measurement that explain the misfit as well as a cause does.
@@ -208,6 +213,8 @@ pub struct Alternative {
 /// A measurement that would distinguish two causes.
 #[derive(Debug, Clone, Serialize)]
 pub struct NextMeasurement {
+    /// The cause that is probable; empty for the base model as it is.
+    pub cause: String,
     /// The other cause.
     pub against: String,
     /// The input to vary.

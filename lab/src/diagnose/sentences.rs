@@ -14,10 +14,20 @@ pub(super) struct Words {
     pub subject: &'static str,
     /// What cannot tell causes apart.
     pub data: &'static str,
+    /// What is predicted without having been seen.
+    pub unseen: &'static str,
+    /// Where nothing carries a misfit.
+    pub carries: &'static str,
 }
 
 /// The words for measured impacts.
-const IMPACTS: Words = Words { subject: "model", data: "data" };
+const IMPACTS: Words = Words {
+    subject: "model",
+    data: "data",
+    unseen: "rows",
+    carries: "No effect of the library and no column carries the misfit: either the stated errors are too small, or the cause is \
+              none of these.",
+};
 
 /// Whether the base model is refuted by its own errors.
 pub(super) fn is_refuted(fit: &Fit) -> bool {
@@ -32,7 +42,7 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
         text += &format!("{} No physics is named before this is checked.", rival.explanation);
         return text;
     }
-    text += &found(diagnosis, &IMPACTS, || nothing_found(diagnosis));
+    text += &found(diagnosis, &IMPACTS, || nothing_found(diagnosis, &IMPACTS, &format!("{rows} rows")));
     if let Some(Rival { explanation, probability, .. }) = diagnosis.rivals.first() {
         text += &format!(" Check this, too ({}): {explanation}", probability_words(*probability));
     }
@@ -70,7 +80,7 @@ fn is_best(rival: &Rival, diagnosis: &Diagnosis) -> bool {
 
 /// The causes and the changed numbers, or what `nothing` says.
 pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce() -> String) -> String {
-    let Words { subject, data } = words;
+    let Words { subject, data, .. } = words;
     let cause = |finding: &Finding| {
         let probability = probability_words(finding.probability);
         let name = match finding.cause.split_once(':') {
@@ -131,13 +141,13 @@ pub(super) fn fit_sentence(fit: &Fit) -> String {
     )
 }
 
-/// The verdict without a cause.
-fn nothing_found(diagnosis: &Diagnosis) -> String {
-    let rows = diagnosis.rows.used;
+/// The verdict without a cause; `seen` is what was diagnosed, as "40 rows".
+pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) -> String {
+    let Words { subject, data, unseen, carries } = words;
     if !diagnosis.refuted.is_empty() {
         let causes = diagnosis.refuted.join(", ");
         return format!(
-            "With {causes} the model predicts rows that it has not seen worse than without: nothing is named."
+            "With {causes} the model predicts {unseen} that it has not seen worse than without: nothing is named."
         );
     }
     if !diagnosis.undecided.is_empty() {
@@ -149,25 +159,21 @@ fn nothing_found(diagnosis: &Diagnosis) -> String {
             }
         };
         let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
-        return format!("These data speak against the model, but cannot tell which of {causes}.");
+        return format!("These {data} speak against the {subject}, but cannot tell which of {causes}.");
     }
     if diagnosis.unexplained_capture.is_some() || diagnosis.capture_ceiling.is_some() {
-        return format!(
-            "In {rows} rows no effect is significant, but the model does not reproduce the captures."
-        );
-    }
-    if is_refuted(&diagnosis.fit) {
-        return "No effect of the library and no column carries the misfit: either the stated errors are too small, or the \
-                cause is none of these."
-            .to_owned();
+        return format!("In {seen} no effect is significant, but the model does not reproduce the captures.");
     }
     let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
     let base: f64 = diagnosis.explanations.iter().filter(as_it_is).map(|one| one.probability).sum();
+    if is_refuted(&diagnosis.fit) && base >= NAMED {
+        return (*carries).to_owned();
+    }
     if base >= NAMED {
-        return format!("In {rows} rows no deviation from the model is significant.");
+        return format!("In {seen} no deviation from the {subject} is significant.");
     }
     format!(
-        "In {rows} rows no cause is probable enough to be named: the base model as it is has the {}.",
+        "In {seen} no cause is probable enough to be named: the base model as it is has the {}.",
         probability_words(base)
     )
 }

@@ -1,18 +1,16 @@
 //! Writes the record of a diagnosis of impacts.
 
 use super::candidate::{Addition, ScoredCandidate};
-use super::choice::{CauseChoice, distinct};
+use super::choice::CauseChoice;
 use super::constant_capture::CaptureConstant;
-use super::constants::{LISTED, NAMED};
 use super::curve::ColumnCurve;
+use super::explanations::distinct;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::Part;
-use super::record::{
-    Diagnosis, ExplanationFound, Finding, Fit, Misfit, NotExamined, Options, Rival, ScatterFound, Unexplained,
-};
+use super::record::{Diagnosis, Finding, Fit, Misfit, NotExamined, Options, ScatterFound, Unexplained};
 use super::sentences::is_refuted;
 use nearwall::effect::{EFFECTS, EffectInfo};
 use nearwall::model::Model;
@@ -39,7 +37,7 @@ pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f
             q_value,
         })
     };
-    let mut all: Vec<Misfit> = choice.singles().filter_map(one).collect();
+    let mut all: Vec<Misfit> = choice.explanations.singles().filter_map(one).collect();
     let name = |misfit: &Misfit| (misfit.column.clone(), misfit.observable);
     all.sort_by(|a, b| b.gain.total_cmp(&a.gain).then_with(|| name(a).cmp(&name(b))));
     // The same curve beside another noise.
@@ -52,7 +50,7 @@ pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f
 /// The record without rows, errors, misfits, gains, verdict and sample.
 pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options: &Options) -> Diagnosis {
     let data = hypothesis.data;
-    let builder = FindingBuilder { hypothesis, choice };
+    let builder = FindingBuilder { hypothesis, choice, reach: &options.reach };
     let mut findings: Vec<Finding> = Vec::new();
     let mut calibration = Vec::new();
     for discovery in &choice.discoveries {
@@ -66,6 +64,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
             findings.push(finding);
         }
     }
+    let undecided = if choice.discoveries.is_empty() { choice.explanations.undecided() } else { Vec::new() };
     let scatter = |observable: Observable| {
         let observed = data.rows.iter().any(|row| observable.measured(row).is_some());
         if observed { hypothesis.scatter[observable as usize] } else { 0.0 }
@@ -77,9 +76,10 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         level: options.level,
         findings,
         calibration,
-        explanations: explanations(choice),
-        rivals: rivals(choice),
-        undecided: undecided(choice),
+        explanations: choice.explanations.record(),
+        rivals: choice.explanations.rivals(main_observable(choice)),
+        measure_next: if undecided.is_empty() { Vec::new() } else { builder.separating() },
+        undecided,
         scatter: ScatterFound {
             e_n: scatter(Observable::NormalRestitution),
             e_t: scatter(Observable::TangentialRestitution),
@@ -119,45 +119,6 @@ pub(super) fn not_examined(
         .collect()
 }
 
-/// The explanations that hold 95 %.
-fn explanations(choice: &CauseChoice) -> Vec<ExplanationFound> {
-    let mut all: Vec<ExplanationFound> = Vec::new();
-    for one in choice.listed() {
-        // Explanations that differ only in the noise are one.
-        match all.iter_mut().find(|known| known.causes == one.causes) {
-            Some(known) => known.probability += one.probability,
-            None => all.push(ExplanationFound { causes: one.causes.clone(), probability: one.probability }),
-        }
-    }
-    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    all
-}
-
-/// The rivals of physics in the explanations that hold 95 %, the most probable first.
-fn rivals(choice: &CauseChoice) -> Vec<Rival> {
-    let physics = choice.explanations.iter().filter(|one| one.rival.is_none());
-    let best = physics.map(|one| one.gain).fold(0.0, f64::max);
-    let observable = main_observable(choice);
-    let mut all: Vec<Rival> = Vec::new();
-    for one in choice.listed() {
-        let Some((id, question)) = &one.rival else { continue };
-        let probability = choice.probability(id);
-        if probability > 1.0 - LISTED && all.iter().all(|known| known.id != *id) {
-            let (id, explanation) = (id.clone(), question.clone());
-            all.push(Rival {
-                id,
-                observable,
-                gain: one.gain,
-                lead: one.gain - best,
-                probability,
-                explanation,
-            });
-        }
-    }
-    all.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    all
-}
-
 /// The observable with most measurements.
 fn main_observable(choice: &CauseChoice) -> &'static str {
     let data = &choice.data;
@@ -167,25 +128,16 @@ fn main_observable(choice: &CauseChoice) -> &'static str {
     best.map_or("e_n", Observable::name)
 }
 
-/// Causes of which one takes part, without one that is probable enough to be named.
-fn undecided(choice: &CauseChoice) -> Vec<String> {
-    let base = choice.explanations.iter().filter(|one| one.causes.is_empty());
-    if !choice.discoveries.is_empty() || base.map(|one| one.probability).sum::<f64>() > 1.0 - NAMED {
-        return Vec::new();
-    }
-    let physics = choice.listed().iter().filter(|one| one.rival.is_none());
-    let mut names = distinct(physics.flat_map(|one| &one.causes));
-    names.truncate(MOST_UNDECIDED);
-    names
-}
-
 /// Candidates that may carry a misfit which the errors show, if none is significant by itself.
 pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
     if !choice.discoveries.is_empty() || !is_refuted(fit) {
         return Vec::new();
     }
-    let mut possible: Vec<&ScoredCandidate> =
-        choice.singles().filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE).collect();
+    let mut possible: Vec<&ScoredCandidate> = choice
+        .explanations
+        .singles()
+        .filter(|c| c.addition.is_systematic() && c.p_value < POSSIBLE)
+        .collect();
     possible.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
     // A column may explain e_n and e_t.
     let names: Vec<String> = possible.iter().map(|one| one.addition.name(&choice.data)).collect();

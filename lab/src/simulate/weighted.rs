@@ -12,7 +12,6 @@
 //! average out. Where a threshold is sharp some bias is left, which nearly cancels in differences
 //! between models.
 
-use std::collections::HashMap;
 use std::sync::{Mutex, PoisonError};
 
 use nalgebra::Vector3;
@@ -47,8 +46,8 @@ struct Node<'a> {
     /// Index of the surface.
     surface: usize,
     contact: WallContact,
-    /// The next contact after a rebound, by the cell; `None` where there is none.
-    next: HashMap<OutcomeCell, Option<Box<Node<'a>>>>,
+    /// The next contact after a rebound, in the order of the cells; `None` where there is none.
+    next: Vec<(OutcomeCell, Option<Box<Node<'a>>>)>,
 }
 
 /// The flights of one particle, which all compared models share.
@@ -150,20 +149,24 @@ impl<'a> PathTree<'a> {
             let random = impact_random(self.case, self.number, before);
             let Some(outcome) = node.decide(model, random, &mut share, &mut observer)? else { return Ok(()) };
             let (cell, middle) = self.cell(&node.contact.impact, &outcome);
-            if *kept >= self.most_kept && !node.next.contains_key(&cell) {
-                let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
-                passing = next;
-                node = &mut passing;
-                continue;
-            }
-            if !node.next.contains_key(&cell) {
-                let next = node.after_rebound(&middle).map(Box::new);
-                node.next.insert(cell, next);
-                *kept += 1;
-            }
-            match node.next.get_mut(&cell) {
-                Some(Some(next)) => node = next,
-                _ => return Ok(()),
+            let place = match node.next.binary_search_by(|(known, _)| known.cmp(&cell)) {
+                Ok(place) => place,
+                Err(_) if *kept >= self.most_kept => {
+                    let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
+                    passing = next;
+                    node = &mut passing;
+                    continue;
+                }
+                Err(place) => {
+                    let next = node.after_rebound(&middle).map(Box::new);
+                    node.next.insert(place, (cell, next));
+                    *kept += 1;
+                    place
+                }
+            };
+            match &mut node.next[place].1 {
+                Some(next) => node = next,
+                None => return Ok(()),
             }
         }
         Ok(())
@@ -249,7 +252,7 @@ impl<'a> Node<'a> {
     fn after_flight(mut tracker: Tracker<'a>) -> Result<Option<Self>, SimulationError> {
         match tracker.fly() {
             Ok(surface) => Ok(tracker.bare_contact(surface).map(|contact| {
-                let next = HashMap::new();
+                let next = Vec::new();
                 Self { tracker, surface, contact, next }
             })),
             Err(Fate::Unusable(reason)) => Err(reason),

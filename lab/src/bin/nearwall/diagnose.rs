@@ -9,7 +9,7 @@ use nearwall::input::Document;
 use nearwall_lab::atomic_file::{make_folder, write_texts};
 use nearwall_lab::dataset::RigMeasurements;
 use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
-use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options};
+use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options, Reach};
 use nearwall_lab::report::{RigPage, RigSource, diagnosis_page, rig_page};
 use nearwall_lab::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig};
 
@@ -59,6 +59,11 @@ pub struct Arguments {
     /// default columns such as series, day, batch or lab (docs/data-file.md lists them)
     #[arg(long, value_name = "COLUMN")]
     group: Option<String>,
+    /// What can be varied in the next measurement, in SI units: an input of the impacts (T_p=290:400), or with --case
+    /// a key of the case (particles.speed=0.5:20). May be given several times. By default what varies in the file,
+    /// and with --case the usual settings of a rig
+    #[arg(long, value_name = "NAME=LOW:HIGH", conflicts_with = "impacts")]
+    reach: Vec<Reach>,
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
@@ -76,12 +81,17 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
 }
 
+fn options(arguments: &Arguments) -> Options {
+    let Arguments { seed, level, group, reach, .. } = arguments;
+    Options { seed: *seed, level: *level, group: group.clone(), reach: reach.clone() }
+}
+
 /// Diagnoses measured impacts.
 fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     // Read only once: the file may be replaced while this runs.
     let document = Document::from_file(file_of_model)?;
     let (columns, wall) = (arguments.columns.as_deref(), arguments.wall.as_deref());
-    let options = Options { seed: arguments.seed, level: arguments.level, group: arguments.group.clone() };
+    let options = options(arguments);
     let diagnosis = ImpactDiagnosis::new(document, columns, wall, options)?;
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
@@ -145,7 +155,7 @@ fn diagnosed(
     case: Option<&CaseText>,
 ) -> Result<RigDiagnosis, RigError> {
     let bar = progress::spinner("candidates tested");
-    let options = Options { seed: arguments.seed, level: arguments.level, group: None };
+    let options = options(arguments);
     let found = diagnose_rig(forward, data, model, &options, arguments.draws, case, &|| bar.inc(1));
     bar.finish_and_clear();
     found

@@ -84,20 +84,10 @@ impl RigAddition {
         if let Kind::Part(Part::LawParameter(parameter)) = self.kind { parameter.of(model) } else { None }
     }
 
-    /// Whether it is another value of a number of the base's own laws.
-    pub fn is_number(&self) -> bool {
-        matches!(self.kind, Kind::Part(Part::LawParameter(_)))
-    }
-
-    /// Whether it is a number that is usually fitted before any effect is looked for: one of the
-    /// base's own laws, or the yield ratio.
-    pub fn is_usual_number(&self) -> bool {
-        self.is_number() || matches!(self.kind, Kind::Part(Part::Effect(info)) if info.id == "yield-ratio")
-    }
-
-    /// Whether it is a curve or a level without a law.
-    pub fn is_curve(&self) -> bool {
-        matches!(self.kind, Kind::Curve { .. })
+    /// Whether it is an effect with a parameter at the bound of its range: no law then, whatever it gains.
+    pub fn at_bound(&self) -> bool {
+        let is_effect = matches!(self.kind, Kind::Part(Part::Effect(_)));
+        is_effect && self.axes.iter().zip(&self.at).any(|(axis, at)| axis.is_at_end(*at))
     }
 
     /// The inputs that it depends on.

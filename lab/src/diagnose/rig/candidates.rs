@@ -102,8 +102,8 @@ pub(super) fn unchanged_inputs(forward: &dyn Forward) -> Vec<&'static str> {
     inputs.map(|(_, input)| input.name).collect()
 }
 
-/// Everything that could be added beside the causes with these names.
-pub(super) fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -> Vec<RigAddition> {
+/// Everything that could be added.
+pub(super) fn candidates(forward: &dyn Forward, data: &Data) -> Vec<RigAddition> {
     let ranges: Vec<(&str, Option<[f64; 2]>)> =
         INPUTS.iter().map(|input| (input.name, range(forward, input.name))).collect();
     let range_of = |input: &str| ranges.iter().find(|(name, _)| *name == input).and_then(|(_, range)| *range);
@@ -138,6 +138,5 @@ pub(super) fn candidates(forward: &dyn Forward, data: &Data, found: &[String]) -
             all.push(RigAddition::curve(on, Some((*place, knots.clone()))));
         }
     }
-    all.retain(|one| !found.contains(&one.key()));
     all
 }

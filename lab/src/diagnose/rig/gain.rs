@@ -4,15 +4,17 @@
 //! others, the model file is written and read again, and predicts the part. The candidates of a
 //! round were computed once for all parts; they do not depend on the data.
 
+use super::super::constants::QUICK_RIG;
 use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition, moved};
-use super::choice::{RigChoice, RigStudy};
+use super::choice::RigChoice;
 use super::noise::FittedScatter;
 use super::posterior::Posterior;
 use super::prediction_table::predict;
+use super::study::RigStudy;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::model::Model;
 
@@ -23,13 +25,6 @@ const LEAST_EXPERIMENTS: usize = 4;
 /// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
 const MOST_OF_ONE: f64 = 2.3;
 
-/// Loss on experiments that a cause has not seen for which it is left out, for each nat by which
-/// its p-value is below the level: what is only just significant has to carry over, what is far
-/// beyond chance may do so badly with few experiments [1].
-const CARRIES: f64 = 0.5;
-/// Most that any cause may lose there [nats].
-const MOST_LOST: f64 = 4.0;
-
 /// Predictions of experiments by models that have not seen them.
 pub(super) struct HeldOutExperiments {
     /// By reading: the base model and the extended one.
@@ -37,8 +32,7 @@ pub(super) struct HeldOutExperiments {
 }
 
 impl HeldOutExperiments {
-    /// Cross-validates the first `causes` causes of a choice. `posterior`, the draws of the whole
-    /// choice, serves as places of a fit; without it a cause keeps the numbers of the whole choice.
+    /// Cross-validates a choice. `posterior`, the draws of the whole choice, serves as places of a fit.
     /// `write` gives the text of a model file with additions. `None` with too few experiments.
     ///
     /// # Errors
@@ -46,30 +40,21 @@ impl HeldOutExperiments {
     pub fn new(
         study: &RigStudy<'_>,
         whole: &RigChoice,
-        causes: usize,
-        posterior: Option<&Posterior>,
+        posterior: &Posterior,
         write: &dyn Fn(&[RigAddition]) -> Option<String>,
     ) -> Result<Option<Self>, PredictionError> {
         let count = study.data.experiments;
-        if count < LEAST_EXPERIMENTS {
+        if count < LEAST_EXPERIMENTS || whole.named.is_empty() {
             return Ok(None);
         }
         let order = shuffled(count, study.seed);
         let parts = EXPERIMENT_PARTS.min(count);
         let base = predict(study.forward, &[])?;
         let mut predicted: Vec<[PredictedReading; 2]> = base.iter().map(|one| [*one, *one]).collect();
-        let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
         for part in 0..parts {
             let mut weights = vec![1.0; count];
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
-            let mut additions = study.choose_again(whole, causes, &weights)?;
-            let same = keys(&additions) == keys(&whole.additions);
-            if let Some(posterior) = posterior {
-                additions = match posterior.best(study, &weights).filter(|_| same) {
-                    Some(at) => moved(&additions, &at),
-                    None => study.fit(&additions, &weights),
-                };
-            }
+            let additions = fitted_again(study, whole, posterior, &weights);
             let text = write(&additions);
             let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
             let model = Model::from_toml("extended.toml", &text).map_err(SettingError::from)?;
@@ -84,17 +69,17 @@ impl HeldOutExperiments {
         Ok(Some(Self { predicted }))
     }
 
-    /// What is gained over `other` on experiments that neither has seen [nats]. One experiment can
-    /// lose [`MOST_OF_ONE`]: a part that names another cause may predict no rebound at all where it
-    /// is extrapolated.
-    pub fn gain_over(&self, other: &Self, study: &RigStudy<'_>) -> f64 {
+    /// Whether experiments that the models have not seen are predicted worse than by the base model. One
+    /// experiment can speak by [`MOST_OF_ONE`] against it: a part that names another cause may predict no
+    /// rebound at all where it is extrapolated.
+    pub fn is_worse(&self, study: &RigStudy<'_>) -> bool {
         let weights = vec![1.0; study.data.experiments];
         let values = study.data.values();
-        let [own, others] = [self, other].map(|one| {
-            let predicted: Vec<PredictedReading> = one.predicted.iter().map(|pair| pair[1]).collect();
-            study.data.log_scores(&study.data.prepare(&predicted), &values, &weights)
+        let [before, after] = [0, 1].map(|which| {
+            let predicted: Vec<PredictedReading> = self.predicted.iter().map(|pair| pair[which]).collect();
+            study.data.log_scores(&study.data.prepare(&predicted), values, &weights)
         });
-        own.iter().zip(others).map(|(own, other)| (own - other).max(-MOST_OF_ONE)).sum()
+        after.iter().zip(before).map(|(after, before)| (after - before).max(-MOST_OF_ONE)).sum::<f64>() < 0.0
     }
 
     /// The gains in all kinds of readings that enough experiments have.
@@ -150,41 +135,20 @@ impl HeldOutExperiments {
     }
 }
 
-/// The choice without the causes, from the last one on, that do not help to predict experiments
-/// that they have not seen, and the names of those left out.
-///
-/// # Errors
-/// Why a model cannot decide an impact.
-pub(super) fn carried(
+/// The additions that experiments with these weights choose, fitted to them.
+fn fitted_again(
     study: &RigStudy<'_>,
-    mut choice: RigChoice,
-    write: &dyn Fn(&[RigAddition]) -> Option<String>,
+    whole: &RigChoice,
+    posterior: &Posterior,
     weights: &[f64],
-) -> Result<(RigChoice, Vec<String>), PredictionError> {
-    let mut dropped = Vec::new();
-    let held_out =
-        |choice: &RigChoice, causes: usize| HeldOutExperiments::new(study, choice, causes, None, write);
-    while !choice.rounds.is_empty() {
-        let causes = choice.rounds.len();
-        let (Some(with), Some(without)) = (held_out(&choice, causes)?, held_out(&choice, causes - 1)?) else {
-            break;
-        };
-        // The numbers have seen all experiments, which gains about one nat each: later causes have
-        // to gain more than that.
-        let parameters = choice.additions.last().map_or(0, |last| last.axes.len());
-        let seen = if causes > 1 { parameters as f64 } else { 0.0 };
-        let p_value = choice.rounds.last().map_or(1.0, |round| round.winner.p_value);
-        let beyond = (study.level / p_value.max(f64::MIN_POSITIVE)).ln().max(0.0);
-        if with.gain_over(&without, study) > seen - (CARRIES * beyond).min(MOST_LOST) {
-            break;
-        }
-        choice.rounds.pop();
-        if let Some(last) = choice.additions.pop() {
-            dropped.push(last.name());
-        }
-        choice.additions = study.fit(&choice.additions, weights);
+) -> Vec<RigAddition> {
+    let additions = whole.again(study, QUICK_RIG, weights);
+    let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
+    let same = keys(&additions) == keys(&whole.additions());
+    match posterior.best(study, weights).filter(|_| same) {
+        Some(at) => moved(&additions, &at),
+        None => study.fit(&additions, weights),
     }
-    Ok((choice, dropped))
 }
 
 /// Predictions of all readings by a model file: its terms and changed numbers on the model of each

@@ -1,9 +1,9 @@
 //! Diagnosis of a simulation from what the whole rig measures.
 //!
 //! Data flow: readings → predictions of every candidate at places of its range (`prediction_table`)
-//! → test against data sets without an effect (`significance`) → fits and choice (`choice`) → draws
-//! of the parameters (`posterior`) → gain on held-out experiments (`gain`) → record with the model
-//! file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
+//! → search among explanations and their probabilities (`rig_search`, `choice`; both engines share
+//! `explanation` and `explanations`) → draws of the parameters (`posterior`) → gain on held-out
+//! experiments (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
 //! decided again. Candidates are those of the diagnosis of impacts. Method and limits:
 //! `docs/rig-diagnosis.md`.
 
@@ -18,24 +18,29 @@ mod posterior;
 mod prediction_table;
 mod proposals;
 mod report;
+mod rig_search;
 mod scatter;
 mod significance;
+mod study;
 
 pub use next::NextExperiment;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
 
 use toml_edit::InlineTable;
 
+use super::constants::THOROUGH_RIG;
 use super::extend::ranges;
 use super::first_reasons;
+use super::reach::Reach;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseText, Forward, PredictionError};
 use addition::{RigAddition, extended_text, moved};
-use choice::RigStudy;
+use choice::{Named, RigChoice};
 use gain::HeldOutExperiments;
 use nearwall::impact::INPUTS;
 use posterior::Posterior;
+use study::RigStudy;
 
 /// Why there is no diagnosis.
 #[derive(Debug, thiserror::Error)]
@@ -55,6 +60,11 @@ pub enum RigError {
     /// The model cannot decide an impact of an experiment.
     #[error(transparent)]
     Undecided(#[from] PredictionError),
+    /// A range for the next measurement of what is no number of the case.
+    #[error(
+        "the next experiment cannot vary `{0}`: it is no number of the case; write a dotted key, as particles.speed"
+    )]
+    NoNumber(String),
     /// The text of the base model cannot be edited.
     #[error("the model file cannot be extended: {0}")]
     Unextendable(String),
@@ -83,37 +93,35 @@ pub fn diagnose_rig(
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });
     }
-    let study = RigStudy::new(forward, options.level, options.seed, progress)?;
+    let is_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
+    if let Some(reach) = options.reach.iter().find(is_number) {
+        return Err(RigError::NoNumber(reach.name.clone()));
+    }
+    let study = RigStudy::new(forward, options.seed, progress)?;
     let all = vec![1.0; study.data.experiments];
     let valid = valid(forward);
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
-    let choice = study.choose(&all)?;
-    let whole = choice.clone();
-    let (mut choice, not_carried) = gain::carried(&study, choice, &write, &all)?;
-    let undecided = report::undecided(&choice);
-    if !undecided.is_empty() {
-        choice.additions.clear();
+    let mut choice = RigChoice::new(&study, THOROUGH_RIG);
+    let mut posterior = Posterior::new(&study, &choice.additions(), &all);
+    let held_out = HeldOutExperiments::new(&study, &choice, &posterior, &write)?;
+    let mut refuted = Vec::new();
+    if held_out.as_ref().is_some_and(|held_out| held_out.is_worse(&study)) {
+        // What unseen experiments refute is not named.
+        refuted = choice.named.iter().map(|one| one.addition.name()).collect();
+        choice = choice.without_causes();
+        posterior = Posterior::default();
     }
-
-    let posterior = Posterior::new(&study, &choice.additions, &all);
-    set_intervals(&mut choice.additions, &posterior);
-    let text = extended_text(model, &choice.additions, &valid);
+    set_intervals(&mut choice.named, &posterior);
+    let additions = choice.additions();
+    let text = extended_text(model, &additions, &valid);
     let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;
-    let held_out = match choice.additions.is_empty() {
-        true => None,
-        false => {
-            let causes = choice.rounds.len();
-            HeldOutExperiments::new(&study, &choice, causes, Some(&posterior), &write)?
-        }
-    };
     let next = match case {
-        Some(case) => next::next_experiments(&study, &choice, &whole, &posterior, data, case)?,
+        Some(case) => next::next_experiments(&study, &choice, &posterior, (data, case), &options.reach)?,
         None => Vec::new(),
     };
     let drawn = posterior.draws(draws, options.seed);
-    let draws = drawn.iter().filter_map(|at| write(&moved(&choice.additions, at))).collect();
-    let found =
-        report::RigFindings { study: &study, choice, undecided, not_carried, held_out, text, draws, next };
+    let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
+    let found = report::RigFindings { study: &study, choice, refuted, held_out, text, draws, next };
     Ok(found.record(data, options)?)
 }
 
@@ -123,9 +131,9 @@ fn valid(forward: &dyn Forward) -> InlineTable {
 }
 
 /// Sets the parameters' intervals to those of the draws.
-fn set_intervals(additions: &mut [RigAddition], posterior: &Posterior) {
+fn set_intervals(named: &mut [Named], posterior: &Posterior) {
     let mut place = 0;
-    for addition in additions {
+    for Named { addition, .. } in named {
         let mut intervals = Vec::new();
         for (axis, at) in addition.axes.iter().zip(&addition.at) {
             let [low, high] = posterior.interval(place).unwrap_or([*at, *at]);

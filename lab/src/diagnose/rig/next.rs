@@ -1,6 +1,6 @@
 //! What to measure next: the experiments that best tell the surviving causes apart and best pin their numbers.
 //!
-//! Every surviving cause `h` with the weight `w_h` (its likelihood) predicts a reading with some
+//! Every surviving explanation `h` with the weight `w_h` (its probability) predicts a reading with some
 //! values of its numbers that the file leaves open. With the error of the reading, of standard
 //! deviation `s`, they make a density `p_h(y)` of its value (a kernel estimate that keeps their
 //! variance). The scatter between runs is part of that error: further particles in one run do not
@@ -16,17 +16,21 @@
 
 use serde::Serialize;
 
+use super::super::explanations::FoundExplanation;
+use super::super::reach::Reach;
 use super::addition::{RigAddition, moved};
-use super::choice::{RigChoice, RigRound, RigStudy, Scored};
+use super::choice::RigChoice;
+use super::noise::PreparedReadings;
 use super::posterior::Posterior;
 use super::prediction_table::predict;
 use super::proposals::proposals;
+use super::rig_search::FittedRig;
+use super::study::RigStudy;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
 use crate::rig::{CaseText, PredictionError, RigCase, SimulatedRig};
 
-/// Causes within this of the best are asked to be told apart [nats], and most of them.
-const SURVIVES: f64 = 6.0;
-const MOST_SURVIVING: usize = 4;
+/// Most explanations that are asked to be told apart.
+const MOST_SURVIVING: usize = 5;
 /// Values of the numbers of the first cause, and of any other one.
 const STATES: [usize; 2] = [12, 5];
 /// Most rows of the table.
@@ -102,7 +106,7 @@ impl Usual {
 /// A surviving cause.
 struct Cause {
     name: String,
-    /// Likelihood over that of the first cause.
+    /// Its probability [1].
     weight: f64,
     /// Likely values of its numbers, all of one weight; the first is the fit.
     states: Vec<Vec<RigAddition>>,
@@ -121,21 +125,19 @@ struct Possible {
 }
 
 /// Ranks experiments over the settings of the file and along the usual levers of a rig; the most
-/// telling first. `whole` is the choice with the causes that did not help to predict unseen
-/// experiments.
+/// telling first.
 ///
 /// # Errors
 /// Why the cases of the proposals cannot be simulated.
 pub(super) fn next_experiments(
     study: &RigStudy<'_>,
     choice: &RigChoice,
-    whole: &RigChoice,
     posterior: &Posterior,
-    data: &RigMeasurements,
-    text: &CaseText,
+    (data, text): (&RigMeasurements, &CaseText),
+    reach: &[Reach],
 ) -> Result<Vec<NextExperiment>, PredictionError> {
     let columns = columns(study, choice, data)?;
-    let experiments: Vec<Experiment> = proposals(data, text)
+    let experiments: Vec<Experiment> = proposals(data, text, reach)
         .into_iter()
         .enumerate()
         .map(|(number, settings)| {
@@ -147,7 +149,7 @@ pub(super) fn next_experiments(
     let cases: Vec<RigCase> =
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
     let forward = SimulatedRig::with_particles(&cases, PROPOSAL_PARTICLES)?;
-    let mut causes = causes(study, choice, whole, posterior)?;
+    let mut causes = causes(study, choice, posterior);
     let by_state = predict_states(&forward, &mut causes);
     if causes.is_empty() || cases.is_empty() {
         return Ok(Vec::new());
@@ -421,111 +423,56 @@ impl Ensemble {
     }
 }
 
-/// The surviving causes, the first as likely as any other.
-fn causes(
-    study: &RigStudy<'_>,
-    choice: &RigChoice,
-    whole: &RigChoice,
-    posterior: &Posterior,
-) -> Result<Vec<Cause>, PredictionError> {
-    let drawn = posterior.draws(STATES[0] - 1, study.seed);
-    let drawn: Vec<_> = drawn.iter().map(|at| moved(&choice.additions, at)).collect();
-    let fit_and_draws = || std::iter::once(choice.additions.clone()).chain(drawn.clone()).collect();
-    let dropped = whole.rounds.get(choice.rounds.len());
-    let last = choice.rounds.len().saturating_sub(1);
-    let Some(named) = choice.rounds.last().filter(|_| dropped.is_none()) else {
-        // Nothing is named, or not all that explains the file: the best candidates, and none of them.
-        let mut all = unnamed(study, choice, dropped)?;
-        // It is not significant, so none of them is as likely as the best one.
-        let name = "no further effect".to_owned();
-        all.insert(all.len().min(1), Cause { name, weight: 1.0, states: fit_and_draws() });
-        return Ok(all);
+/// The explanations that hold 95 %, two at least, with their probabilities.
+fn causes(study: &RigStudy<'_>, choice: &RigChoice, posterior: &Posterior) -> Vec<Cause> {
+    let additions = choice.additions();
+    let keys = |all: &[RigAddition]| all.iter().map(RigAddition::key).collect::<Vec<_>>();
+    let surviving = choice.explanations.listed().len().clamp(2, MOST_SURVIVING);
+    let cause = |one: &FoundExplanation<RigAddition>| {
+        let drawn = posterior.draws(STATES[0] - 1, study.seed);
+        let own = &one.told.additions;
+        let states = match !drawn.is_empty() && keys(own) == keys(&additions) {
+            true => std::iter::once(additions.clone())
+                .chain(drawn.iter().map(|at| moved(&additions, at)))
+                .collect(),
+            false => states(study, &choice.visited[one.place].fitted, STATES[1]),
+        };
+        let name = match one.told.causes.as_slice() {
+            [] => "no further effect".to_owned(),
+            causes => causes.join(" and "),
+        };
+        Cause { name, weight: one.probability, states }
     };
-    // Undecided causes are not among the additions.
-    let own = match choice.additions.is_empty() {
-        true => states(study, &[], &named.winner, STATES[0])?,
-        false => fit_and_draws(),
-    };
-    let first = Cause { name: named.winner.addition.name(), weight: 1.0, states: own };
-    let mut all = Vec::new();
-    for (place, round) in choice.rounds.iter().enumerate().rev() {
-        let before: &[RigAddition] = choice.additions.get(..place).unwrap_or_default();
-        let after: &[RigAddition] = choice.additions.get(place + 1..).unwrap_or_default();
-        for other in round.rivals(SURVIVES).take(MOST_SURVIVING) {
-            let states = match place == last {
-                true => states(study, before, other, STATES[1])?,
-                false => vec![[before, std::slice::from_ref(&other.addition), after].concat()],
-            };
-            let weight = (other.gain - round.winner.gain).exp().min(1.0);
-            all.push(Cause { name: other.addition.name(), weight, states });
-        }
-    }
-    all.sort_by(|a, b| b.weight.total_cmp(&a.weight));
-    all.truncate(MOST_SURVIVING);
-    all.insert(0, first);
-    if all.len() == 1 {
-        all.extend(alternatives(choice));
-    }
-    Ok(all)
+    choice.explanations.all().iter().take(surviving).map(cause).collect()
 }
 
-/// The best candidates where no cause is named, or where one of the round `dropped` was left out.
-fn unnamed(
-    study: &RigStudy<'_>,
-    choice: &RigChoice,
-    dropped: Option<&RigRound>,
-) -> Result<Vec<Cause>, PredictionError> {
-    let candidates: Vec<&Scored> = match dropped {
-        Some(round) => std::iter::once(&round.winner).chain(round.rivals(SURVIVES)).collect(),
-        None => choice.hints.iter().filter(|one| !one.addition.is_curve()).collect(),
-    };
-    let candidates = if candidates.is_empty() { choice.hints.iter().collect() } else { candidates };
-    let best = candidates.iter().map(|one| one.gain).fold(0.0, f64::max);
-    let cause = |one: &Scored| {
-        let states = states(study, &choice.additions, one, STATES[1])?;
-        Ok(Cause { name: one.addition.name(), weight: (one.gain - best).exp(), states })
-    };
-    candidates.into_iter().take(MOST_SURVIVING).map(cause).collect()
-}
-
-/// Where no rival is left: the last cause's removal, which weighs as little as its gain allows.
-fn alternatives(choice: &RigChoice) -> Vec<Cause> {
-    let Some(round) = choice.rounds.last() else { return Vec::new() };
-    let before = choice.additions.get(..choice.rounds.len() - 1).unwrap_or_default().to_vec();
-    let weight = (-round.winner.gain).exp().min(1.0);
-    vec![Cause { name: "no further effect".to_owned(), weight, states: vec![before] }]
-}
-
-/// A candidate beside additions: the fit, and places of its search range as often as they are likely.
-fn states(
-    study: &RigStudy<'_>,
-    before: &[RigAddition],
-    one: &Scored,
-    count: usize,
-) -> Result<Vec<Vec<RigAddition>>, PredictionError> {
-    let with = |addition: &RigAddition| [before, std::slice::from_ref(addition)].concat();
+/// An explanation as it was fitted, and with its last addition at places of the search range as often as they
+/// are likely.
+fn states(study: &RigStudy<'_>, fitted: &FittedRig, count: usize) -> Vec<Vec<RigAddition>> {
+    let mut states = vec![fitted.additions.clone()];
+    let Some((last, before)) = fitted.additions.split_last() else { return states };
+    let own = predict(study.forward, before).ok().map(|predicted| study.data.prepare(&predicted));
+    let table = &study.table;
+    let places = table.candidates.iter().filter(|candidate| candidate.addition.key() == last.key());
     let all = vec![1.0; study.data.experiments];
-    let values = study.data.values();
-    let table = study.table(before)?;
-    let key = one.addition.key();
-    let places = table.candidates.iter().filter(|candidate| candidate.addition.key() == key);
-    let places = places.flat_map(|candidate| &candidate.places);
-    let mut scored: Vec<(f64, &[f64])> =
-        places.map(|place| (study.data.score(&place.prepared, &values, &all), place.at.as_slice())).collect();
-    scored.push((study.score(&with(&one.addition), &all), &one.addition.at));
+    let score = |prepared: &PreparedReadings| study.data.score(prepared, study.data.values(), &all);
+    let scored = places.flat_map(|candidate| &candidate.places).filter_map(|place| {
+        let shifted = own.as_ref()?.shifted(&table.base_prepared, &place.prepared);
+        Some((score(&shifted), place.at.as_slice()))
+    });
+    let scored: Vec<(f64, &[f64])> = scored.chain([(score(&fitted.prepared), last.at.as_slice())]).collect();
     let best = scored.iter().map(|(score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
     let total: f64 = scored.iter().map(|(score, _)| (score - best).exp()).sum();
     let step = total / (count - 1).max(1) as f64;
     let (mut sum, mut wanted) = (0.0, 0.5 * step);
-    let mut states = vec![with(&one.addition)];
     for (score, at) in scored {
         sum += (score - best).exp();
         while sum > wanted && states.len() < count {
-            states.push(with(&one.addition.moved(at)));
+            states.push([before, &[last.moved(at)]].concat());
             wanted += step;
         }
     }
-    Ok(states)
+    states
 }
 
 /// The observables of the file with the usual error of each.
@@ -535,7 +482,7 @@ fn columns(
     data: &RigMeasurements,
 ) -> Result<Vec<(RigReading, Usual)>, PredictionError> {
     let weights = vec![1.0; study.data.experiments];
-    let scatter = study.data.scatter(&predict(study.forward, &choice.additions)?, &weights);
+    let scatter = study.data.scatter(&predict(study.forward, &choice.additions())?, &weights);
     let mut columns: Vec<(RigReading, Usual)> = Vec::new();
     let all = || data.experiments.iter().flat_map(|one| &one.readings);
     for reading in all() {

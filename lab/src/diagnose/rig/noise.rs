@@ -1,6 +1,6 @@
 //! The readings of a rig with their noise, and the log likelihood of predictions.
 //!
-//! A share with a count is a binomial; a reading with a stated error is normal; both have a
+//! A share with a count is a beta-binomial; a reading with a stated error is normal; both have a
 //! scatter between runs ([`super::scatter`]) over which the likelihood is averaged, so that it is no
 //! number to be fitted. Readings of one kind without error and count share one normal scatter,
 //! which is fitted, larger the smaller a count they rest on.
@@ -13,7 +13,7 @@
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Beta, Binomial, Distribution as _, StandardNormal};
 
-use super::scatter::{Density, GRID, Group, GroupedReading, OverGrid, log_sum};
+use super::scatter::{CountDensity, GRID, Group, GroupedReading, NormalDensity, OverGrid, log_sum};
 use crate::dataset::Experiment;
 use crate::rig::{PredictedReading, away_from_edges};
 
@@ -62,6 +62,8 @@ pub(super) struct Data {
     groups: Vec<Group>,
     /// What is known of each reading with a stated error or a count; see [`Noise`].
     known: Vec<Option<KnownError>>,
+    /// The measured values.
+    measured: ReadingValues,
 }
 
 /// A reading with a stated error or a count in its group.
@@ -70,8 +72,8 @@ struct KnownError {
     /// Place in [`Data::groups`].
     group: usize,
     reading: GroupedReading,
-    /// Inside, and where a count is none or all.
-    densities: [Density; 2],
+    /// Of a stated error.
+    normal: Option<NormalDensity>,
 }
 
 /// The scatter that was fitted to readings.
@@ -90,11 +92,33 @@ pub(super) struct PreparedReadings {
     rows: Vec<PreparedReading>,
 }
 
+impl PreparedReadings {
+    /// With the change from one prediction to another added: in log odds of a share of a count.
+    pub fn shifted(&self, from: &Self, to: &Self) -> Self {
+        use PreparedReading::{Normal, Share, Shared};
+        let row = |((own, from), to): ((&PreparedReading, &PreparedReading), &PreparedReading)| match (
+            *own, *from, *to,
+        ) {
+            (Share { log_odds, trust }, Share { log_odds: from, .. }, Share { log_odds: to, .. }) => {
+                Share { log_odds: log_odds + (to - from), trust }
+            }
+            (Normal { mean, trust }, Normal { mean: from, .. }, Normal { mean: to, .. }) => {
+                Normal { mean: mean + (to - from), trust }
+            }
+            (Shared { kind, mean, weight }, Shared { mean: from, .. }, Shared { mean: to, .. }) => {
+                Shared { kind, mean: mean + (to - from), weight }
+            }
+            _ => *own,
+        };
+        Self { rows: self.rows.iter().zip(&from.rows).zip(&to.rows).map(row).collect() }
+    }
+}
+
 /// The distance of a value `y` from a prediction.
 #[derive(Debug, Clone, Copy)]
 enum PreparedReading {
-    /// Divergence of `y` from the share `p` [nats]; `ln p` and `ln(1-p)`.
-    Share { logs: [f64; 2], trust: Trust },
+    /// A count about a share with these log odds.
+    Share { log_odds: f64, trust: Trust },
     /// `(y - mean)²`.
     Normal { mean: f64, trust: Trust },
     /// Adds `(y - mean)² weight` to the sum of its kind.
@@ -116,19 +140,11 @@ impl Trust {
 }
 
 /// Values of all readings, measured or drawn.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct ReadingValues {
     value: Vec<f64>,
-    /// Entropy of a share of this value [nats].
-    entropy: Vec<f64>,
-}
-
-impl ReadingValues {
-    fn new(value: Vec<f64>) -> Self {
-        let of = |y: f64| if y > 0.0 { -y * y.ln() } else { 0.0 };
-        let entropy = value.iter().map(|&y| of(y) + of(1.0 - y)).collect();
-        Self { value, entropy }
-    }
+    /// Of a share of a count: its density.
+    counted: Vec<Option<CountDensity>>,
 }
 
 /// Values with the weights of their experiments, ready to be compared with many predictions.
@@ -143,8 +159,8 @@ pub(super) struct WeightedValues<'a> {
 #[derive(Debug)]
 struct WeightedGroup<'a> {
     group: &'a Group,
-    /// Index, weight, and weights of the distance over the grid.
-    readings: Vec<(usize, f64, &'a OverGrid)>,
+    /// Index, weight, and of a stated error the weights of the distance over the grid.
+    readings: Vec<(usize, f64, Option<&'a OverGrid>)>,
     /// Sum of the constants.
     constant: OverGrid,
 }
@@ -181,12 +197,26 @@ impl Data {
         let grouped: Vec<_> =
             readings.iter().zip(base).map(|(datum, base)| grouped(datum, base, is_share(datum))).collect();
         let (groups, known) = groups(&readings, &grouped, kinds.len());
-        Self { readings, kinds, prior, experiments: experiments.len(), groups, known }
+        let measured = ReadingValues::default();
+        let mut data =
+            Self { readings, kinds, prior, experiments: experiments.len(), groups, known, measured };
+        data.measured = data.ready(data.readings.iter().map(|datum| datum.value).collect());
+        data
     }
 
     /// The measured values.
-    pub fn values(&self) -> ReadingValues {
-        ReadingValues::new(self.readings.iter().map(|datum| datum.value).collect())
+    pub fn values(&self) -> &ReadingValues {
+        &self.measured
+    }
+
+    /// Values, ready to be compared with predictions.
+    fn ready(&self, value: Vec<f64>) -> ReadingValues {
+        let counted = |(value, known): (&f64, &Option<KnownError>)| {
+            let known = known.as_ref().filter(|known| known.normal.is_none())?;
+            Some(self.groups[known.group].counted(&known.reading, *value))
+        };
+        let counted = value.iter().zip(&self.known).map(counted).collect();
+        ReadingValues { value, counted }
     }
 
     /// The readings of experiments with a weight, and the weight.
@@ -210,7 +240,7 @@ impl Data {
                 (Noise::Counted(count), _) => {
                     let p = away_from_edges(one.value);
                     let trust = Trust::new(p * (1.0 - p) / count, one.doubt);
-                    PreparedReading::Share { logs: [p.ln(), (1.0 - p).ln()], trust }
+                    PreparedReading::Share { log_odds: log_odds_of(one.value), trust }
                 }
                 (Noise::Stated(error), known) => {
                     let own = known.as_ref().map_or(error * error, |known| known.reading.own);
@@ -235,10 +265,10 @@ impl Data {
                 shared.push((index, times));
                 continue;
             };
-            let density = known.density(values.value[index]);
             let group = &mut groups[known.group];
-            group.readings.push((index, times, &density.weight));
-            group.constant.iter_mut().zip(&density.constant).for_each(|(sum, one)| *sum += times * one);
+            group.readings.push((index, times, known.normal.as_ref().map(|normal| &normal.weight)));
+            let constant = known.normal.iter().flat_map(|normal| &normal.constant);
+            group.constant.iter_mut().zip(constant).for_each(|(sum, one)| *sum += times * one);
         }
         WeightedValues { values, groups, shared }
     }
@@ -317,12 +347,12 @@ impl Data {
     pub fn scatter(&self, predicted: &[PredictedReading], weights: &[f64]) -> FittedScatter {
         let (prepared, values) = (self.prepare(predicted), self.values());
         let mean = |one: &WeightedGroup<'_>| {
-            let probabilities = one.group.probabilities(&one.likelihood(&prepared, &values));
+            let probabilities = one.group.probabilities(&one.likelihood(&prepared, values));
             probabilities.iter().zip(&one.group.squares).map(|(p, square)| p * square).sum()
         };
         FittedScatter {
-            unstated: self.unstated(&prepared, &values, weights),
-            between: self.weighted(&values, weights).groups.iter().map(mean).collect(),
+            unstated: self.unstated(&prepared, values, weights),
+            between: self.weighted(values, weights).groups.iter().map(mean).collect(),
         }
     }
 
@@ -417,16 +447,7 @@ impl Data {
                 _ => one.value + self.variance(index, one, scatter).sqrt() * normal,
             }
         };
-        ReadingValues::new(self.readings.iter().enumerate().map(&mut one).collect())
-    }
-}
-
-impl KnownError {
-    fn density(&self, value: f64) -> &Density {
-        let caught = value * self.reading.own;
-        // To half a particle.
-        let none_or_all = caught < 0.5 || caught > self.reading.own - 0.5;
-        &self.densities[usize::from(none_or_all)]
+        self.ready(self.readings.iter().enumerate().map(&mut one).collect())
     }
 }
 
@@ -436,16 +457,21 @@ impl WeightedGroup<'_> {
         let mut sums = self.constant;
         for (index, times, weights) in &self.readings {
             let value = values.value[*index];
-            let (distance, trust) = match prepared.rows[*index] {
-                PreparedReading::Share { logs: [p, q], trust } => {
-                    (-value * p - (1.0 - value) * q - values.entropy[*index], trust)
+            match (prepared.rows[*index], weights, &values.counted[*index]) {
+                (PreparedReading::Normal { mean, trust }, Some(weights), _) => {
+                    let [distance, constant] =
+                        [times * trust.share * (value - mean).powi(2), times * trust.half_log];
+                    sums.iter_mut().zip(*weights).for_each(|(sum, one)| *sum += constant - distance * one);
                 }
-                PreparedReading::Normal { mean, trust } => ((value - mean).powi(2), trust),
-                PreparedReading::Shared { .. } => continue,
-            };
-            let [distance, constant] = [times * trust.share * distance, times * trust.half_log];
-            for (sum, weight) in sums.iter_mut().zip(*weights) {
-                *sum += constant - distance * weight;
+                (PreparedReading::Share { log_odds, trust }, _, Some(density)) => {
+                    let here = density.at(log_odds);
+                    // Only a replay has doubt.
+                    let there = if trust.share < 1.0 { density.at(log_odds_of(value)) } else { here };
+                    for ((sum, here), there) in sums.iter_mut().zip(here).zip(there) {
+                        *sum += times * (there + trust.share * (here - there) + trust.half_log);
+                    }
+                }
+                _ => {}
             }
         }
         sums
@@ -493,12 +519,18 @@ fn groups(
         }
         let group = Group::new(kind, counted, &all);
         for (index, reading) in members() {
-            let densities = group.densities(&reading);
-            known[index] = Some(KnownError { group: groups.len(), reading, densities });
+            let normal = (!counted).then(|| group.normal(&reading));
+            known[index] = Some(KnownError { group: groups.len(), reading, normal });
         }
         groups.push(group);
     }
     (groups, known)
+}
+
+/// Log odds of a share that keeps away from 0 and 1.
+fn log_odds_of(share: f64) -> f64 {
+    let p = away_from_edges(share);
+    (p / (1.0 - p)).ln()
 }
 
 /// A prediction that can be compared: where the model says that nothing happens that could be

@@ -12,9 +12,9 @@ use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
 use rayon::prelude::*;
 
 use super::addition::{RigAddition, moved};
-use super::choice::RigStudy;
 use super::noise::PreparedReadings;
 use super::prediction_table::predict;
+use super::study::RigStudy;
 
 /// Draws of each generation.
 const GENERATIONS: [usize; 3] = [60, 100, 200];
@@ -53,7 +53,7 @@ impl Posterior {
                 return (f64::NEG_INFINITY, None);
             };
             let prepared = study.data.prepare(&predicted);
-            (study.data.score(&prepared, &study.data.values(), weights), Some(prepared))
+            (study.data.score(&prepared, study.data.values(), weights), Some(prepared))
         };
         let summit = evaluate(&centre).0;
         let guess = |place: usize| guess(&|at| evaluate(at).0, &centre, place, summit);
@@ -108,7 +108,7 @@ impl Posterior {
     pub fn best(&self, study: &RigStudy<'_>, weights: &[f64]) -> Option<Vec<f64>> {
         let values = study.data.values();
         let scored =
-            self.tried.iter().map(|(at, prepared)| (study.data.score(prepared, &values, weights), at));
+            self.tried.iter().map(|(at, prepared)| (study.data.score(prepared, values, weights), at));
         scored.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at.clone())
     }
 

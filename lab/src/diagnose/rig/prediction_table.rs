@@ -1,20 +1,24 @@
-//! What every candidate predicts at places of its search range, computed once for all uses.
+//! What every candidate predicts at places of its search range beside the base model, computed once.
 //!
 //! The predictions depend on the wall law but not on the measured values. The same table therefore
-//! serves the test of the data, of thousands of data sets drawn without an effect, of resampled
-//! experiments and of every part of a cross-validation.
+//! serves the search on all experiments, on every part of a cross-validation, and the data sets drawn
+//! without an effect. Beside other additions a candidate is first looked at as if it changed the
+//! predictions as it changes those of the base model; those that are promising are then computed.
+
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
 use super::addition::{RigAddition, apply_all};
-use super::noise::{Data, PreparedReadings, ReadingValues};
+use super::candidates::candidates;
+use super::noise::{Data, PreparedReadings, WeightedValues};
 use crate::rig::{Forward, PredictedReading, PredictionError};
 
 /// A candidate at one place.
 #[derive(Debug)]
 pub(super) struct TabledPlace {
     pub at: Vec<f64>,
-    pub prepared: PreparedReadings,
+    pub prepared: Arc<PreparedReadings>,
 }
 
 /// A candidate with its places.
@@ -24,12 +28,12 @@ pub(super) struct TabledCandidate {
     pub places: Vec<TabledPlace>,
 }
 
-/// All candidates beside what a model already has.
+/// All candidates beside the base model.
 #[derive(Debug)]
 pub(super) struct PredictionTable {
     /// Predictions without a candidate.
     pub base: Vec<PredictedReading>,
-    pub base_prepared: PreparedReadings,
+    pub base_prepared: Arc<PreparedReadings>,
     pub candidates: Vec<TabledCandidate>,
 }
 
@@ -47,47 +51,39 @@ pub(super) fn predict(
 }
 
 impl PredictionTable {
-    /// Computes the predictions of all candidates beside `additions`; those that the impacts refuse
-    /// or that change nothing are left out.
-    ///
-    /// # Errors
-    /// Why the model with the additions cannot decide an impact.
+    /// Computes the predictions of all candidates; those that the impacts refuse or that change nothing
+    /// are left out.
     pub fn new(
         forward: &dyn Forward,
         data: &Data,
-        additions: &[RigAddition],
-        candidates: Vec<RigAddition>,
+        base: Vec<PredictedReading>,
         progress: &(dyn Fn() + Sync),
-    ) -> Result<Self, PredictionError> {
-        let base = predict(forward, additions)?;
+    ) -> Self {
         let of = |addition: RigAddition| {
             let places = addition.places(addition.present(forward.base(0)));
             let at = |at: Vec<f64>| {
-                let mut all = additions.to_vec();
-                all.push(addition.moved(&at));
-                let predicted = predict(forward, &all).ok()?;
-                let changed = predicted
-                    .iter()
-                    .zip(&base)
-                    .any(|(a, b)| a.value != b.value && !(a.value.is_nan() && b.value.is_nan()));
-                changed.then(|| TabledPlace { at, prepared: data.prepare(&predicted) })
+                let predicted = predict(forward, &[addition.moved(&at)]).ok()?;
+                let same = |(a, b): (&PredictedReading, &PredictedReading)| {
+                    a.value == b.value || a.value.is_nan() && b.value.is_nan()
+                };
+                let changed = !predicted.iter().zip(&base).all(same);
+                changed.then(|| TabledPlace { at, prepared: Arc::new(data.prepare(&predicted)) })
             };
             let places: Vec<TabledPlace> = places.into_par_iter().filter_map(at).collect();
             progress();
             (!places.is_empty()).then_some(TabledCandidate { addition, places })
         };
-        let candidates = candidates.into_par_iter().filter_map(of).collect();
-        let base_prepared = data.prepare(&base);
-        Ok(Self { base, base_prepared, candidates })
+        let candidates = candidates(forward, data).into_par_iter().filter_map(of).collect();
+        let base_prepared = Arc::new(data.prepare(&base));
+        Self { base, base_prepared, candidates }
     }
 }
 
 impl TabledCandidate {
-    /// The best place and its log likelihood [nats].
-    pub fn best(&self, data: &Data, values: &ReadingValues, weights: &[f64]) -> (f64, &TabledPlace) {
-        let weighted = data.weighted(values, weights);
-        let scored = self.places.iter().map(|place| (data.score_weighted(&place.prepared, &weighted), place));
-        scored.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, &self.places[0]))
+    /// The log likelihood of its best place [nats].
+    pub fn best(&self, data: &Data, values: &WeightedValues<'_>) -> f64 {
+        let scores = self.places.iter().map(|place| data.score_weighted(&place.prepared, values));
+        scores.fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// What the number of its parameters gains by chance [nats].

@@ -1,5 +1,6 @@
 //! Experiments that could be made: over the ranges of the settings of the file, and along the usual levers of a rig.
 
+use super::super::reach::Reach;
 use super::places::halton;
 use crate::dataset::RigMeasurements;
 use crate::rig::CaseText;
@@ -54,10 +55,14 @@ impl Range {
 
 /// Settings worth trying: those of the file, ends of the ranges with each other, settings inside,
 /// one setting beyond its range, and one lever at a time.
-pub(super) fn proposals(data: &RigMeasurements, text: &CaseText) -> Vec<Settings> {
+/// Where the laboratory states what it can vary, only that varies, over the whole of its range.
+pub(super) fn proposals(data: &RigMeasurements, text: &CaseText, reach: &[Reach]) -> Vec<Settings> {
     let known: Vec<&Settings> = data.experiments.iter().map(|one| &one.settings).collect();
     let Some(middle) = known.get(known.len() / 2).map(|one| (*one).clone()) else { return Vec::new() };
-    let ranges = ranges(&known);
+    let stated =
+        |one: &Reach| Range { key: one.name.clone(), low: vec![one.range[0]], high: vec![one.range[1]] };
+    let free = reach.is_empty();
+    let ranges: Vec<Range> = if free { ranges(&known) } else { reach.iter().map(stated).collect() };
     let mut all: Vec<Settings> = Vec::new();
     let every = known.len().div_ceil(KNOWN).max(1);
     all.extend(known.iter().step_by(every).map(|one| (*one).clone()));
@@ -70,13 +75,13 @@ pub(super) fn proposals(data: &RigMeasurements, text: &CaseText) -> Vec<Settings
         let from = known[number % known.len()];
         all.push(moved(from, &ranges, |place| halton(number, [2, 3, 5, 7, 11, 13][place % 6])));
     }
-    for (beyond, _) in ranges.iter().enumerate() {
+    for (beyond, _) in ranges.iter().enumerate().filter(|_| free) {
         for share in [-BEYOND_RANGE, 1.0 + BEYOND_RANGE] {
             all.push(moved(&middle, &ranges, |place| if place == beyond { share } else { 0.5 }));
         }
     }
     for (key, steps, factor) in
-        LEVERS.into_iter().filter(|(key, ..)| ranges.iter().all(|one| one.key != *key))
+        LEVERS.into_iter().filter(|(key, ..)| free && ranges.iter().all(|one| one.key != *key))
     {
         let cell = middle.iter().find(|(known, _)| known == key).and_then(|(_, cell)| cell.parse().ok());
         let Some(value) = cell.or_else(|| text.number(key)) else { continue };
@@ -138,13 +143,19 @@ fn numbers(cell: &str) -> Option<Vec<f64>> {
     inside.unwrap_or(cell).split(',').map(|number| number.trim().parse().ok()).collect()
 }
 
-/// Settings with all ranges at a share; what an experiment does not set stays as in the case.
+/// Settings with all ranges at a share; what neither an experiment sets nor a range varies stays as in the case.
 fn moved(from: &Settings, ranges: &[Range], share: impl Fn(usize) -> f64) -> Settings {
     let cell = |(key, cell): &(String, String)| {
         let range = ranges.iter().enumerate().find(|(_, range)| range.key == *key);
         (key.clone(), range.map_or(cell.clone(), |(place, range)| range.cell(share(place))))
     };
-    from.iter().map(cell).collect()
+    let mut settings: Settings = from.iter().map(cell).collect();
+    for (place, range) in ranges.iter().enumerate() {
+        if settings.iter().all(|(key, _)| *key != range.key) {
+            settings.push((range.key.clone(), range.cell(share(place))));
+        }
+    }
+    settings
 }
 
 /// A number with four digits.

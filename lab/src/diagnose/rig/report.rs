@@ -8,25 +8,24 @@ use super::super::finding::sigma;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Alternative, Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, Options, Rows,
+    Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, Options, Rows,
 };
-use super::super::sentences::{Words, fit_sentence, found, is_refuted};
+use super::super::sentences::{Words, fit_sentence, found, nothing_found};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::candidates::range;
-use super::choice::{DISTINGUISHABLE_GAIN, RigChoice, RigRound, RigStudy, Scored};
+use super::choice::{Named, RigChoice};
 use super::gain::{HeldOutExperiments, predict_file};
 use super::next::{NextExperiment, table};
 use super::noise::{FittedScatter, Noise};
 use super::prediction_table::predict;
+use super::study::RigStudy;
 use crate::dataset::RigMeasurements;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::effect::EFFECTS;
 use nearwall::model::Model;
 
-/// Least share of resamples that name a cause [1]; with a smaller one it is a hint.
-const LEAST_CERTAINTY: f64 = 0.5;
-/// With fewer experiments than these, causes that cannot be told apart are undecided.
+/// With fewer experiments the verdict warns that effects may go undetected.
 const FEW_EXPERIMENTS: usize = 6;
 
 /// A diagnosis of a rig: `diagnosis.json`.
@@ -35,9 +34,6 @@ pub struct RigDiagnosis {
     /// As for impacts; rows are those of the file, held-out ones are experiments.
     #[serde(flatten)]
     pub diagnosis: Diagnosis,
-    /// Causes that would explain these experiments, but that do not help to predict experiments
-    /// that they have not seen.
-    pub not_carried: Vec<String>,
     /// Every reading beside both models.
     pub readings: Vec<RigRow>,
     /// Errors by kind of observable, on the readings that were fitted.
@@ -97,43 +93,12 @@ pub struct KindErrors {
 pub(super) struct RigFindings<'a> {
     pub study: &'a RigStudy<'a>,
     pub choice: RigChoice,
-    /// Causes of which one is significant, if the data cannot tell which.
-    pub undecided: Vec<String>,
-    /// Causes that explain these experiments but do not help to predict others.
-    pub not_carried: Vec<String>,
+    /// Causes that predict experiments that they have not seen worse.
+    pub refuted: Vec<String>,
     pub held_out: Option<HeldOutExperiments>,
     pub text: String,
     pub draws: Vec<String>,
     pub next: Vec<NextExperiment>,
-}
-
-/// With few experiments, causes that cannot be told apart.
-pub(super) fn undecided(choice: &RigChoice) -> Vec<String> {
-    let Some(first) = choice.rounds.first() else { return Vec::new() };
-    let others = rivals(first);
-    let few = first.certainty < LEAST_CERTAINTY && choice.rounds.len() == 1;
-    let experiments_few = few && !others.is_empty();
-    if experiments_few && first.others.iter().any(|other| other.gain > first.winner.gain - 1.0) {
-        return std::iter::once(first.winner.addition.name()).chain(others).collect();
-    }
-    Vec::new()
-}
-
-/// Causes that the readings cannot tell from the winner of a round.
-fn rivals(round: &RigRound) -> Vec<String> {
-    let mut names: Vec<String> =
-        round.rivals(DISTINGUISHABLE_GAIN).map(|other| other.addition.name()).collect();
-    names.dedup();
-    names
-}
-
-/// Probability of a candidate among those of its round and none, equally likely before the readings:
-/// the gain is the evidence (Akaike weights; Burnham and Anderson 2002).
-fn probability(round: &RigRound, one: &Scored) -> f64 {
-    let all = std::iter::once(&round.winner).chain(&round.others);
-    let most = all.clone().map(|other| other.gain).fold(0.0, f64::max);
-    let total: f64 = all.map(|other| (other.gain - most).exp()).sum::<f64>() + (-most).exp();
-    (one.gain - most).exp() / total
 }
 
 fn p_of(chi_square: f64, freedom: f64) -> f64 {
@@ -150,8 +115,8 @@ impl RigFindings<'_> {
         let all = vec![1.0; study.data.experiments];
         let base = predict(study.forward, &[])?;
         let model = Model::from_toml("extended.toml", &self.text).map_err(SettingError::from)?;
-        let extended = predict_file(study, &model, &choice.additions)?;
-        let parameters = choice.additions.iter().map(|a| a.axes.len()).sum();
+        let extended = predict_file(study, &model, &choice.additions())?;
+        let parameters = choice.named.iter().map(|one| one.addition.axes.len()).sum();
         let fit = Fit {
             base: self.fit_test(&base, 0, choice.structure[0]),
             extended: self.fit_test(&extended, parameters, choice.structure[1]),
@@ -161,6 +126,7 @@ impl RigFindings<'_> {
         let gains: Vec<_> = held_out.iter().flat_map(|held_out| held_out.gains(study)).collect();
         let first = findings.first().map_or("", |finding| finding.observable);
         let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
+        let nothing = choice.named.is_empty() && self.refuted.is_empty();
         let mut diagnosis = Diagnosis {
             schema: "nearwall.diagnosis/2",
             seed: options.seed,
@@ -174,7 +140,9 @@ impl RigFindings<'_> {
             },
             fit,
             findings,
-            undecided: self.undecided.clone(),
+            explanations: choice.explanations.record(),
+            undecided: if nothing { choice.explanations.undecided() } else { Vec::new() },
+            refuted: self.refuted.clone(),
             calibration,
             not_examined: not_examined(
                 study.forward.base(0),
@@ -187,7 +155,7 @@ impl RigFindings<'_> {
             ..Diagnosis::default()
         };
         let counts = [study.data.experiments, study.data.readings.len()];
-        diagnosis.verdict = verdict(&diagnosis, &self.not_carried, counts);
+        diagnosis.verdict = verdict(&diagnosis, counts);
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
         }
@@ -198,21 +166,19 @@ impl RigFindings<'_> {
             errors: self.errors(&base, &extended),
             next_table: table(&self.next),
             notes: [file.notes.clone(), study.data.scatter_notes(&scatter)].concat(),
-            not_carried: self.not_carried,
             next: self.next,
             extended: self.text,
             draws: self.draws,
         })
     }
 
-    /// The causes and the changed numbers of the base model; none if they are undecided.
+    /// The causes and the changed numbers of the base model.
     fn found(&self) -> Result<(Vec<Finding>, Vec<Calibration>), PredictionError> {
-        let named = if self.undecided.is_empty() { self.choice.rounds.as_slice() } else { &[] };
         let (mut findings, mut calibration) = (Vec::new(), Vec::new());
-        for (round, addition) in named.iter().zip(&self.choice.additions) {
-            match self.calibration(round, addition) {
+        for named in &self.choice.named {
+            match self.calibration(named) {
                 Some(one) => calibration.push(one),
-                None => findings.push(self.finding(round, addition)?),
+                None => findings.push(self.finding(named)?),
             }
         }
         Ok((findings, calibration))
@@ -256,7 +222,7 @@ impl RigFindings<'_> {
         all
     }
 
-    fn calibration(&self, round: &RigRound, addition: &RigAddition) -> Option<Calibration> {
+    fn calibration(&self, Named { addition, p_value, .. }: &Named) -> Option<Calibration> {
         let Kind::Part(Part::LawParameter(parameter)) = addition.kind else { return None };
         let [low, high] = addition.intervals.first()?.map(rounded);
         Some(Calibration {
@@ -265,14 +231,15 @@ impl RigFindings<'_> {
             value: rounded(*addition.values().first()?),
             low,
             high,
-            p_value: round.winner.p_value,
-            q_value: round.winner.p_value,
+            p_value: *p_value,
+            q_value: *p_value,
         })
     }
 
-    fn finding(&self, round: &RigRound, addition: &RigAddition) -> Result<Finding, PredictionError> {
-        let Scored { gain, p_value, .. } = round.winner;
-        let others = rivals(round);
+    fn finding(&self, named: &Named) -> Result<Finding, PredictionError> {
+        let Named { addition, gain, p_value } = named;
+        let (gain, p_value) = (*gain, *p_value);
+        let explanations = &self.choice.explanations;
         let curve = addition.fitted_curve().map(|curve| CauseCurve {
             factor: curve.on != nearwall::effect::CurveTarget::Capture,
             at: curve
@@ -282,32 +249,28 @@ impl RigFindings<'_> {
                 .collect(),
             adds: curve.values.iter().map(|value| rounded(*value)).collect(),
         });
-        let alternatives = round.others.iter().map(|other| Alternative {
-            cause: other.addition.name(),
-            score_difference: gain - other.gain,
-            probability: probability(round, other),
-        });
         let observable = self.observable(addition)?;
+        let cause = addition.name();
         let mut finding = Finding {
-            cause: addition.name(),
             observable,
             variables: addition.variables(),
             gain,
             chi_square: 2.0 * (gain + addition.axes.len() as f64),
             sigma: sigma(p_value),
-            probability: probability(round, &round.winner),
-            certainty: round.certainty,
+            probability: explanations.probability(&cause),
+            certainty: explanations.certainty(&cause),
             lack_of_fit: None,
             not_separable: Vec::new(),
             p_value,
             q_value: p_value,
             parameters: addition.estimates().into_iter().collect(),
-            alternatives: alternatives.collect(),
-            indistinguishable_from: others,
+            alternatives: explanations.alternatives(&cause),
+            indistinguishable_from: explanations.in_stead_of(&cause),
             measure_next: Vec::new(),
             curve,
             surface: None,
             explanation: String::new(),
+            cause,
         };
         finding.explanation = explain(&finding);
         Ok(finding)
@@ -316,7 +279,7 @@ impl RigFindings<'_> {
     /// The kind of observable that an addition changes most, in standard errors.
     fn observable(&self, addition: &RigAddition) -> Result<&'static str, PredictionError> {
         let (study, data) = (self.study, &self.study.data);
-        let all = &self.choice.additions;
+        let all = &self.choice.additions();
         let rest: Vec<RigAddition> = all.iter().filter(|one| one.key() != addition.key()).cloned().collect();
         let [with, without] = [predict(study.forward, all)?, predict(study.forward, &rest)?];
         let scatter = data.scatter(&with, &vec![1.0; data.experiments]);
@@ -392,7 +355,7 @@ fn explain(finding: &Finding) -> String {
     };
     let others = match finding.indistinguishable_from.as_slice() {
         [] => String::new(),
-        others => format!(" These experiments cannot tell it from {}.", others.join(" or ")),
+        others => format!(" These experiments do not exclude {}.", others.join(" or ")),
     };
     format!(
         "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much at most once in {:.0}.{others}",
@@ -403,45 +366,19 @@ fn explain(finding: &Finding) -> String {
 }
 
 /// The words for a rig.
-const RIG: Words = Words { subject: "wall law", data: "experiments" };
-
-/// A warning where few resamples name the first cause.
-fn hint(diagnosis: &Diagnosis) -> String {
-    match diagnosis.findings.first().filter(|finding| finding.certainty < LEAST_CERTAINTY) {
-        None => String::new(),
-        Some(Finding { cause, certainty, .. }) => format!(
-            " {cause} is named in only {:.0} % of resampled sets of experiments: take it as a hint.",
-            100.0 * certainty
-        ),
-    }
-}
+const RIG: Words = Words {
+    subject: "wall law",
+    data: "experiments",
+    unseen: "experiments",
+    carries: "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
+              check the gas, the particles' size and speed, and what counts as captured.",
+};
 
 /// The verdict: the result in a few sentences.
-fn verdict(diagnosis: &Diagnosis, not_carried: &[String], [experiments, readings]: [usize; 2]) -> String {
-    let nothing = || {
-        if !diagnosis.undecided.is_empty() {
-            let causes = diagnosis.undecided.join(", ");
-            return format!(
-                "These experiments speak against the simulation, but cannot tell which of {causes}."
-            );
-        }
-        if is_refuted(&diagnosis.fit) {
-            return "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
-                    check the gas, the particles' size and speed, and what counts as captured."
-                .to_owned();
-        }
-        format!(
-            "In {experiments} experiments with {readings} readings no deviation from the simulation is significant."
-        )
-    };
-    let mut text = fit_sentence(&diagnosis.fit) + &found(diagnosis, &RIG, nothing);
-    if !not_carried.is_empty() {
-        text += &format!(
-            " {} would explain more of these experiments, but not those that it has not seen: no cause is named for that.",
-            not_carried.join(" or ")
-        );
-    }
-    text += &hint(diagnosis);
+fn verdict(diagnosis: &Diagnosis, [experiments, readings]: [usize; 2]) -> String {
+    let seen = format!("{experiments} experiments with {readings} readings");
+    let mut text =
+        fit_sentence(&diagnosis.fit) + &found(diagnosis, &RIG, || nothing_found(diagnosis, &RIG, &seen));
     let left = &diagnosis.fit.extended;
     let extends = !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty());
     if let (Some(chi_square), Some(freedom), Some(p)) =

@@ -7,31 +7,29 @@
 //! - stated: variance `e² + m + s² a`, with the stated error `e`, the Monte Carlo variance `m` of
 //!   the base model's prediction, and `a = 1`, of a share `4 y (1 - y)` with the middle `y` of the
 //!   measured and the base's value: a share near 0 or 1 cannot scatter as one of a half does;
-//! - counted: the correlation between two particles of a run is `s² + m/(p q)`, as of a
-//!   beta-binomial (Skellam 1948). The likelihood is that of a binomial of `n` particles to the power
-//!   `1/φ` over `sqrt(φ)`, with `φ = 1 + (n-1) s²` (Efron 1986, double exponential families): within a
-//!   third of a nat of the beta-binomial where a probability doubles, and quick. Where none
-//!   or all were caught, `φ = x/ln(1 + x)` with `x = n s²`, and there is no root: the limit of the
-//!   beta-binomial for small probabilities.
+//! - counted: beta-binomial (Skellam 1948) with the correlation `s² + m/(p q)` between two particles
+//!   of a run.
 //!
 //! No explanation has a scatter of its own to fit. The likelihood is the mean over the scatter,
 //!
-//! `L = P L(0) + (1 - P)/R ∫ L(s) d ln(V + s²)`,
+//! `L = P L(0) + (1 - P) ∫ L(s) p(s) ds`,
 //!
-//! with the probability `P` that the stated errors are complete, the typical variance `V` of the
-//! group and the range `R` of the logarithm. The integral is a sum over a grid; the integrand is
-//! near normal in the logarithm, for which a sum with steps up to twice its standard deviation is
-//! exact to a few percent.
+//! with the probability `P` that the stated errors are complete, and otherwise a half-Cauchy
+//! distribution of `s` with the typical error of the group as scale (Gelman 2006): as much scatter
+//! again is usual, ten times as much is not. The integral is a sum over a grid that is even in
+//! `ln(V + s²)`, in which the integrand is near normal: a sum with steps up to twice its standard
+//! deviation is exact to a few percent.
+
+use statrs::function::gamma::ln_gamma;
 
 /// Values of the scatter.
 pub(super) const GRID: usize = 16;
 /// Probability that readings scatter as their errors and counts say [1]; assumed.
 const COMPLETE: f64 = 0.8;
-/// Range of the logarithm of the variance over which a scatter is looked for, otherwise [nats]:
-/// up to a hundred stated errors.
-const RANGE: f64 = 9.2;
 /// Largest scatter: standard deviation of a reading, and correlation of a share, squared [1].
 const LARGEST: [f64; 2] = [0.25, 0.5];
+/// Largest correlation with that of a Monte Carlo error [1].
+const LARGEST_CORRELATION: f64 = 0.9;
 /// Times the largest squared misfit of the base model, up to which the grid reaches: data sets drawn
 /// with its scatter have larger ones.
 const BEYOND_MISFIT: f64 = 4.0;
@@ -67,12 +65,46 @@ pub(super) struct GroupedReading {
     pub misfit: f64,
 }
 
-/// `constant - weight distance` is the log density of a reading, for each scatter.
+/// `constant - weight (y - mean)²` is the log density of a stated reading, for each scatter.
 #[derive(Debug, Clone)]
-pub(super) struct Density {
+pub(super) struct NormalDensity {
     pub constant: OverGrid,
     pub weight: OverGrid,
 }
+
+/// Places of a predicted share, evenly over its log odds, at which the density of a count is tabled.
+const PLACES: usize = 200;
+/// The outermost log odds: those of the shares that a prediction can have.
+const OUTERMOST: f64 = 5.82;
+
+/// Log density of a count at the places, for each scatter [nats], without the binomial coefficient.
+#[derive(Debug, Clone)]
+pub(super) struct CountDensity(Vec<OverGrid>);
+
+impl CountDensity {
+    /// For each scatter at the log odds of a predicted share.
+    pub fn at(&self, log_odds: f64) -> OverGrid {
+        let place = (log_odds / OUTERMOST + 1.0) * 0.5 * (PLACES - 1) as f64;
+        let below = (place.max(0.0) as usize).min(PLACES - 2);
+        let share = (place - below as f64).clamp(0.0, 1.0);
+        let [low, high] = [&self.0[below], &self.0[below + 1]];
+        std::array::from_fn(|which| low[which] + share * (high[which] - low[which]))
+    }
+}
+
+/// Log density of a count `caught` of `count` particles, of which two of a run are correlated [nats], without
+/// the binomial coefficient.
+fn beta_binomial(caught: f64, count: f64, p: f64, correlation: f64) -> f64 {
+    if correlation < UNCORRELATED / count {
+        return caught * p.ln() + (count - caught) * (1.0 - p).ln();
+    }
+    let size = 1.0 / correlation - 1.0;
+    let part = |hits: f64, mean: f64| ln_gamma(hits + mean * size) - ln_gamma(mean * size);
+    part(caught, p) + part(count - caught, 1.0 - p) + ln_gamma(size) - ln_gamma(count + size)
+}
+
+/// Correlation times count below which a beta-binomial is a binomial [1].
+const UNCORRELATED: f64 = 1e-4;
 
 impl Group {
     pub fn new(kind: usize, counted: bool, readings: &[GroupedReading]) -> Self {
@@ -85,38 +117,37 @@ impl Group {
         let largest = (BEYOND_MISFIT * misfit).min(LARGEST[usize::from(counted)]);
         let range = (1.0 + largest / unit).ln().max(1.0);
         let step = range / (GRID - 1) as f64;
-        let rest = ((1.0 - COMPLETE) * step / RANGE).ln();
+        // Probability of a scatter below the middle between a place and the next one.
+        let below =
+            |place: usize| (step * (place as f64 + 0.5)).exp_m1().sqrt().atan() * std::f64::consts::FRAC_2_PI;
+        let prior = |place: usize| match place {
+            0 => COMPLETE + (1.0 - COMPLETE) * below(0),
+            _ => (1.0 - COMPLETE) * (below(place) - below(place - 1)),
+        };
         Self {
             kind,
             counted,
             unit,
             squares: std::array::from_fn(|place| unit * (step * place as f64).exp_m1()),
-            prior: std::array::from_fn(|place| if place == 0 { COMPLETE.ln() } else { rest }),
+            prior: std::array::from_fn(|place| prior(place).ln()),
         }
     }
 
-    /// The densities of a reading about a prediction: inside, and where a count is none or all.
-    pub fn densities(&self, one: &GroupedReading) -> [Density; 2] {
-        let density = |of: &dyn Fn(f64) -> [f64; 2]| {
-            let both = self.squares.map(of);
-            Density { constant: both.map(|[constant, _]| constant), weight: both.map(|[_, weight]| weight) }
+    /// The density of a stated reading about a prediction.
+    pub fn normal(&self, one: &GroupedReading) -> NormalDensity {
+        let variance = self.squares.map(|square| one.own + square * one.with);
+        NormalDensity { constant: variance.map(|v| -0.5 * v.ln()), weight: variance.map(|v| 0.5 / v) }
+    }
+
+    /// The density of a share `value` of a count.
+    pub fn counted(&self, one: &GroupedReading, value: f64) -> CountDensity {
+        let at = |place: usize| {
+            let log_odds = OUTERMOST * (2.0 * place as f64 / (PLACES - 1) as f64 - 1.0);
+            let p = 1.0 / (1.0 + (-log_odds).exp());
+            let correlation = |square: f64| (square + one.with).min(LARGEST_CORRELATION);
+            self.squares.map(|square| beta_binomial(value * one.own, one.own, p, correlation(square)))
         };
-        if !self.counted {
-            let normal = density(&|square| {
-                let variance = one.own + square * one.with;
-                [-0.5 * variance.ln(), 0.5 / variance]
-            });
-            return [normal.clone(), normal];
-        }
-        let inside = |square: f64| {
-            let dispersion = 1.0 + (one.own - 1.0).max(0.0) * (square + one.with);
-            [-0.5 * dispersion.ln(), one.own / dispersion]
-        };
-        let outside = |square: f64| {
-            let excess = (one.own * (square + one.with)).max(1e-9);
-            [0.0, one.own * excess.ln_1p() / excess]
-        };
-        [density(&inside), density(&outside)]
+        CountDensity((0..PLACES).map(at).collect())
     }
 
     /// Logarithm of the mean likelihood over the scatter, from its logarithm for each [nats].
@@ -153,7 +184,7 @@ mod tests {
             let reading = GroupedReading { own: error * error, with: 1.0, misfit };
             let group = Group::new(0, false, &[reading]);
             let log = |variance: f64| -0.5 * f64::from(count) * variance.ln() - 0.5 * squares / variance;
-            let [density, _] = group.densities(&reading);
+            let density = group.normal(&reading);
             let likelihood: OverGrid = std::array::from_fn(|place| {
                 f64::from(count) * density.constant[place] - density.weight[place] * squares
             });
@@ -161,38 +192,40 @@ mod tests {
             let steps = 20_000;
             let last = (1.0 + group.squares[GRID - 1] / (error * error)).ln();
             let at = |step: i32| last * (f64::from(step) + 0.5) / f64::from(steps);
-            let integral: f64 =
-                (0..steps).map(|step| (log(error * error * at(step).exp()) - top).exp()).sum::<f64>() * last
-                    / f64::from(steps);
-            let mean = 0.8 * (log(error * error) - top).exp() + 0.2 / RANGE * integral;
+            // Half-Cauchy over `ln(1 + s²/e²)`.
+            let prior = |u: f64| std::f64::consts::FRAC_1_PI / u.exp_m1().sqrt();
+            let term = |step: i32| prior(at(step)) * (log(error * error * at(step).exp()) - top).exp();
+            let integral: f64 = (0..steps).map(term).sum::<f64>() * last / f64::from(steps);
+            let mean = 0.8 * (log(error * error) - top).exp() + 0.2 * integral;
             let found = group.log_mean(&likelihood) - top;
             assert!((found - mean.ln()).abs() < 0.15, "{count} {scatter}: {found} {}", mean.ln());
         }
     }
 
-    /// The likelihood of counts of a beta-binomial, as a function of the mean, against the exact one.
+    /// The tabled density of a count against the exact beta-binomial between the places, and that sums over
+    /// all counts are 1.
     #[test]
     fn counts_scatter_as_a_beta_binomial() {
-        let (count, correlation) = (100.0_f64, 0.05);
-        let size = 1.0 / correlation - 1.0;
-        let gamma = statrs::function::gamma::ln_gamma;
-        let exact = |caught: f64, p: f64| {
-            gamma(caught + p * size) - gamma(p * size) + gamma(count - caught + (1.0 - p) * size)
-                - gamma((1.0 - p) * size)
-        };
-        let reading = GroupedReading { own: count, with: correlation, misfit: 0.0 };
-        let densities = Group::new(0, true, &[reading]).densities(&reading);
-        let ours = |caught: f64, p: f64| {
-            let y = caught / count;
-            let part = |y: f64, p: f64| if y > 0.0 { y * (y / p).ln() } else { 0.0 };
-            let edge = usize::from(caught == 0.0 || caught == count);
-            -densities[edge].weight[0] * (part(y, p) + part(1.0 - y, 1.0 - p))
-        };
-        for (caught, ps) in [(0.0, [0.01, 0.05]), (10.0, [0.07, 0.15]), (50.0, [0.4, 0.65])] {
-            let [low, high] = ps;
-            let exact = exact(caught, low) - exact(caught, high);
-            let ours = ours(caught, low) - ours(caught, high);
-            assert!((exact - ours).abs() < 0.33 + 0.15 * exact.abs(), "{caught} of {count}: {ours} {exact}");
+        let count = 60.0_f64;
+        let choose =
+            |caught: f64| ln_gamma(count + 1.0) - ln_gamma(caught + 1.0) - ln_gamma(count - caught + 1.0);
+        let reading = GroupedReading { own: count, with: 0.0, misfit: 1.0 };
+        let group = Group::new(0, true, &[reading]);
+        for p in [0.004_f64, 0.03, 0.31, 0.77] {
+            let mut sums = [0.0; GRID];
+            for caught in (0..=60).map(f64::from) {
+                let tabled = group.counted(&reading, caught / count).at((p / (1.0 - p)).ln());
+                for (which, square) in group.squares.iter().enumerate() {
+                    let exact = beta_binomial(caught, count, p, *square);
+                    assert!(
+                        (tabled[which] - exact).abs() < 0.02,
+                        "{caught} {p} {square}: {} {exact}",
+                        tabled[which]
+                    );
+                    sums[which] += (exact + choose(caught)).exp();
+                }
+            }
+            assert!(sums.iter().all(|sum| (sum - 1.0).abs() < 1e-3), "{p}: {sums:?}");
         }
     }
 }

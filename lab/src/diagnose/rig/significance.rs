@@ -1,6 +1,6 @@
 //! How often chance alone gains as much as a candidate, corrected for all candidates and all their places.
 //!
-//! Data sets are drawn from the model without a candidate, with the noise of the readings. In each,
+//! Data sets are drawn from the base model, with the noise of the readings. In each,
 //! the largest gain of any candidate at any place is found, exactly as in the measured data. The
 //! share of data sets in which it reaches that of a candidate is the candidate's corrected p-value
 //! (the max-T test of Westfall and Young); beyond the largest drawn gains the tail is continued as
@@ -11,10 +11,10 @@ use rand_chacha::rand_core::SeedableRng;
 use rayon::prelude::*;
 
 use super::noise::Data;
-use super::prediction_table::PredictionTable;
+use super::prediction_table::{PredictionTable, TabledCandidate};
 
 /// Data sets drawn.
-const DRAWN: u64 = 1000;
+const DRAWN: u64 = 200;
 /// Share of the largest drawn gains that shape the tail.
 const TAIL: usize = 10;
 
@@ -30,20 +30,14 @@ impl NullGains {
             random.set_stream(number);
             let values = data.draw(&table.base, &scatter, &mut random);
             let base = data.score(&table.base_prepared, &values, weights);
-            let gain = |candidate: &super::prediction_table::TabledCandidate| {
-                candidate.best(data, &values, weights).0 - base - candidate.cost()
-            };
+            let weighted = data.weighted(&values, weights);
+            let gain =
+                |candidate: &TabledCandidate| candidate.best(data, &weighted) - base - candidate.cost();
             table.candidates.iter().map(gain).fold(f64::NEG_INFINITY, f64::max)
         };
         let mut gains: Vec<f64> = (0..DRAWN).into_par_iter().map(one).collect();
         gains.sort_by(f64::total_cmp);
         Self(gains)
-    }
-
-    /// Gain that this share of data sets without an effect does not exceed [nats].
-    pub fn quantile(&self, share: f64) -> f64 {
-        let place = (share * self.0.len() as f64) as usize;
-        self.0.get(place.min(self.0.len().saturating_sub(1))).copied().unwrap_or(0.0)
     }
 
     /// Probability of a gain at least as large without an effect.

@@ -35,7 +35,7 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis, finding: &Finding, pla
     page.figures(figures(diagnosis, finding));
     add_alternatives(page, finding);
     for measure in &finding.measure_next {
-        page.text(usage::sentence(measure, &finding.cause));
+        page.text(usage::sentence(measure));
     }
 }
 

@@ -95,7 +95,7 @@ pub(super) fn probability(probability: f64) -> String {
 }
 
 /// The explanations that hold 95 %, with their probabilities.
-fn add_explanations(page: &mut Page, diagnosis: &Diagnosis) {
+pub(super) fn add_explanations(page: &mut Page, diagnosis: &Diagnosis) {
     if diagnosis.explanations.is_empty() {
         return;
     }

@@ -196,6 +196,7 @@ fn a_cause_says_how_sure_it_is() {
     found.indistinguishable_from = vec!["tangential-compliance".into(), "unknown:day".into()];
     found.not_separable = vec!["Only the product of `friction` and `strength` is known.".into()];
     found.measure_next = vec![NextMeasurement {
+        cause: "sliding-to-rolling".into(),
         against: "tangential-compliance".into(),
         vary: "v_t".into(),
         range: [0.2, 9.0],

@@ -10,16 +10,20 @@ use nearwall::impact::INPUTS;
 use toml_edit::{DocumentMut, Item, Value};
 
 /// A measurement in a sentence.
-pub(super) fn sentence(measure: &NextMeasurement, cause: &str) -> String {
-    let NextMeasurement { against, vary, unit, impacts, .. } = measure;
+pub(super) fn sentence(measure: &NextMeasurement) -> String {
+    let NextMeasurement { cause, against, vary, unit, impacts, .. } = measure;
+    let name = |causes: &str| match causes {
+        "" => "the base model as it is".to_owned(),
+        causes => causes.split(" and ").map(cause_title).collect::<Vec<_>>().join(" and "),
+    };
     let [from, to] = measure.range.map(|end| with_unit(end, unit));
     let observe =
         if measure.observable == "outcome" { "which impacts are captured" } else { measure.observable };
     format!(
         "To tell {} from {}: measure {observe} at {vary} = {from} and at {vary} = {to} with everything else constant. About \
          {impacts} impacts are enough, half of them at each value.",
-        cause_title(cause),
-        cause_title(against)
+        name(cause),
+        name(against)
     )
 }
 
@@ -30,9 +34,12 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
         page.text("See \"One of several causes\" at the top for what tells them apart.");
         asked = true;
     }
+    for measure in &diagnosis.measure_next {
+        page.text(sentence(measure));
+    }
     for finding in &diagnosis.findings {
         for measure in &finding.measure_next {
-            page.text(sentence(measure, &finding.cause));
+            page.text(sentence(measure));
             asked = true;
         }
         if finding.cause.starts_with("unknown:") {

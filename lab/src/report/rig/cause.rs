@@ -30,11 +30,11 @@ pub(super) fn add(page: &mut Page, finding: &Finding, place: usize) {
     page.figures(finding.curve.as_ref().and_then(|curve| figure(finding, curve)));
     add_alternatives(page, finding);
     if !finding.indistinguishable_from.is_empty() {
-        page.subheading("What cannot be told apart");
+        page.subheading("What these experiments do not exclude");
         let same: Vec<String> =
             std::iter::once(&finding.cause).chain(&finding.indistinguishable_from).cloned().collect();
         page.text(format!(
-            "These experiments support one of these nearly as well as the other. The first is in the extended model; it is not proven. {}",
+            "These experiments do not exclude the others. The first is in the extended model. {}",
             rivals::to_separate(&same)
         ));
         page.table(rivals::candidates(&same));

@@ -14,7 +14,7 @@ mod tests;
 mod usage;
 mod words;
 
-use super::diagnosis::{add_calibration, add_overview, add_rejected, quoted, rivals};
+use super::diagnosis::{add_calibration, add_explanations, add_overview, add_rejected, quoted, rivals};
 use super::page::{Callout, Page, RowStatus};
 use crate::diagnose::Diagnosis;
 use crate::diagnose::rig::RigDiagnosis;
@@ -66,6 +66,7 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     };
     let over = over_setting::figures(&mut page, found, in_case);
     page.figures(over.into_iter().chain(parity::figures(found)));
+    add_explanations(&mut page, diagnosis);
     add_overview(&mut page, &words::findings(&diagnosis.findings));
     for (place, finding) in diagnosis.findings.iter().enumerate() {
         cause::add(&mut page, finding, place);
@@ -123,8 +124,9 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
     page.note(format!(
         "The base model {does}; a candidate changes its wall law. Candidates are every effect of the library \
          whose inputs vary over the impacts, the numbers of the base model's own laws, and free curves over the inputs whose mean \
-         changes from experiment to experiment. A candidate is accepted if data sets drawn from the model without it, with the \
-         errors of these readings, let any candidate gain as much in at most a share of {level} of the sets. Intervals hold 95 % \
+         changes from experiment to experiment. Explanations are compared by their evidence, which counts parameters and prior \
+         probabilities, beside a scatter between runs that all of them share; a cause is named from a probability of 0.8 on, \
+         unless experiments that it has not seen are predicted worse. Intervals hold 95 % \
          of draws from the likelihood of all parameters together. The gain is cross-validated over whole experiments. Seed {seed} \
          decides the draws and the parts of the cross-validation. docs/rig-diagnosis.md of nearwall describes the method and its \
          limits."

@@ -1,0 +1,192 @@
+//! The search among explanations of a rig's readings: the base model with additions.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::super::candidate::Class;
+use super::super::explanation::{Evidence, Explained, Explanation, WINDOW};
+use super::super::impact_search::{FURTHER, surprise};
+use super::super::part::Part;
+use super::addition::{Kind, RigAddition};
+use super::noise::{Noise, PreparedReadings};
+use super::prediction_table::{TabledCandidate, TabledPlace, predict};
+use super::study::RigStudy;
+
+/// Prior odds of a law for each of its inputs that no experiment changes on purpose [1]: over such an
+/// input a law is hardly more than a level.
+const UNCHANGED: f64 = 1.0 / 3.0;
+/// Fewest candidates of an expansion that are fitted, however little they promise.
+const LEAST_FITTED: usize = 3;
+/// One cause, and one more for so many readings; and most causes.
+const READINGS_A_CAUSE: usize = 3;
+const MOST_RIG_CAUSES: usize = 5;
+
+/// Additions, fitted together, and their predictions.
+#[derive(Debug, Clone)]
+pub(super) struct FittedRig {
+    pub additions: Vec<RigAddition>,
+    pub prepared: Arc<PreparedReadings>,
+}
+
+/// An explanation of a rig's readings.
+pub(super) type RigExplanation = Explanation<FittedRig>;
+
+/// The search on experiments with weights, 0 or 1.
+pub(super) struct RigSearch<'a> {
+    study: &'a RigStudy<'a>,
+    weights: &'a [f64],
+    evidence: Evidence,
+    /// Number of candidates of each class.
+    counts: BTreeMap<Class, usize>,
+    /// Largest number of additions.
+    most: usize,
+    /// Explanations of each expansion of which all parameters are fitted together.
+    refitted: usize,
+    /// Explanations that another search has fitted: places where candidates are looked at, too.
+    known: &'a [RigExplanation],
+}
+
+impl<'a> RigSearch<'a> {
+    pub fn new(
+        study: &'a RigStudy<'a>,
+        weights: &'a [f64],
+        refitted: usize,
+        known: &'a [RigExplanation],
+    ) -> Self {
+        let table = &study.table;
+        let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
+        table.candidates.iter().for_each(|one| *counts.entry(class(&one.addition)).or_default() += 1);
+        let readings = study.data.count(weights);
+        let stated = study.data.readings.iter().all(|one| !matches!(one.noise, Noise::Shared { .. }));
+        let base = study.data.score(&table.base_prepared, study.data.values(), weights);
+        let evidence = Evidence { base, readings: readings as f64, stated };
+        let most = MOST_RIG_CAUSES.min(1 + readings / READINGS_A_CAUSE).min(study.forward.most_causes());
+        Self { study, weights, evidence, counts, most, refitted, known }
+    }
+
+    /// An explanation with these additions; `None` where the model refuses an impact.
+    pub fn explanation(&self, additions: Vec<RigAddition>) -> Option<RigExplanation> {
+        let predicted = predict(self.study.forward, &additions).ok()?;
+        Some(self.of(additions, Arc::new(self.study.data.prepare(&predicted))))
+    }
+
+    fn of(&self, additions: Vec<RigAddition>, prepared: Arc<PreparedReadings>) -> RigExplanation {
+        let mut keys: Vec<String> = additions.iter().map(RigAddition::key).collect();
+        keys.sort_unstable();
+        let freedom = additions.iter().map(|one| one.axes.len() as f64).sum();
+        let log_prior = additions.iter().enumerate().map(|(place, one)| self.prior(place, one)).sum();
+        let scores = self.study.scores(&prepared, self.weights);
+        Explanation { keys, fitted: FittedRig { additions, prepared }, scores, freedom, log_prior }
+    }
+
+    /// Logarithm of the prior probability of an addition beside so many others, over that of none [nats].
+    fn prior(&self, others: usize, one: &RigAddition) -> f64 {
+        let class = class(one);
+        let over = one.variables();
+        let idle = over.iter().filter(|input| self.study.unchanged.contains(&input.as_str())).count();
+        let count = self.counts.get(&class).copied().unwrap_or(1);
+        surprise(class, count) + idle as f64 * UNCHANGED.ln() + others as f64 * FURTHER.ln()
+    }
+
+    /// The base model.
+    pub fn start(&self) -> RigExplanation {
+        self.of(Vec::new(), Arc::clone(&self.study.table.base_prepared))
+    }
+
+    /// A candidate at its best place, of the table and of earlier fits.
+    fn looked_at(&self, of: &RigExplanation, candidate: &TabledCandidate) -> RigExplanation {
+        let (study, weights) = (self.study, self.weights);
+        let base = &study.table.base_prepared;
+        let values = study.data.weighted(study.data.values(), weights);
+        let place = |place: &TabledPlace| {
+            let prepared = of.fitted.prepared.shifted(base, &place.prepared);
+            let score = study.data.score_weighted(&prepared, &values);
+            let additions = [&of.fitted.additions[..], &[candidate.addition.moved(&place.at)]].concat();
+            (score, FittedRig { additions, prepared: Arc::new(prepared) })
+        };
+        let places = candidate.places.iter().map(place);
+        let keys = |fitted: &FittedRig| fitted.additions.iter().map(RigAddition::key).collect::<Vec<_>>();
+        let mut own = keys(&of.fitted);
+        own.push(candidate.addition.key());
+        let known = self.known.iter().filter(|known| keys(&known.fitted) == own);
+        let known = known
+            .map(|known| (study.data.score_weighted(&known.fitted.prepared, &values), known.fitted.clone()));
+        let best = places.chain(known).max_by(|a, b| a.0.total_cmp(&b.0));
+        best.map_or_else(|| of.clone(), |(_, FittedRig { additions, prepared })| self.of(additions, prepared))
+    }
+
+    /// The same with all parameters fitted together.
+    fn refitted(&self, new: RigExplanation) -> RigExplanation {
+        let fitted = self.explanation(self.study.fit(&new.fitted.additions, self.weights));
+        (self.study.progress)();
+        fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new)
+    }
+
+    /// Whether an addition could pay for itself: predictions that equal all measured values gain more
+    /// than the least that one has to.
+    fn has_room(&self, of: &RigExplanation) -> bool {
+        let Ok(predicted) = predict(self.study.forward, &of.fitted.additions) else { return false };
+        let room = self.study.data.room(&predicted, self.weights);
+        self.evidence.gain(of.score() + room, of.freedom + 1.0) > self.evidence.gain(of.score(), of.freedom)
+    }
+
+    /// All candidates beside an explanation that are not part of it, the most probable first.
+    fn beside(&self, of: &RigExplanation) -> Vec<RigExplanation> {
+        let others = self.study.table.candidates.iter().filter(|one| !of.keys.contains(&one.addition.key()));
+        let mut all: Vec<RigExplanation> = others.map(|one| self.looked_at(of, one)).collect();
+        all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+        all
+    }
+}
+
+impl Explained for RigSearch<'_> {
+    type Fitted = FittedRig;
+
+    fn evidence(&self) -> Evidence {
+        self.evidence
+    }
+
+    fn effort(&self, _: &RigExplanation) -> usize {
+        1
+    }
+
+    fn extended(&self, of: &RigExplanation) -> Vec<RigExplanation> {
+        if of.fitted.additions.len() >= self.most || !self.has_room(of) {
+            return Vec::new();
+        }
+        let mut all = self.beside(of);
+        // At first look a fit is at most this much worse than it can be.
+        let least = self.evidence.of(of) - WINDOW;
+        let promising = all.iter().take_while(|new| self.evidence.of(new) > least).count();
+        let rest = all.split_off(all.len().min(promising.max(LEAST_FITTED).min(self.refitted)));
+        let mut found: Vec<_> = all.into_iter().map(|new| self.refitted(new)).chain(rest).collect();
+        found.retain(|new| !new.fitted.additions.iter().any(RigAddition::at_bound));
+        found
+    }
+
+    fn reduced(&self, of: &RigExplanation, known: &dyn Fn(&[String]) -> bool) -> Vec<RigExplanation> {
+        if of.fitted.additions.len() < 2 {
+            return Vec::new();
+        }
+        let without = |place: usize| {
+            let mut rest = of.fitted.additions.clone();
+            let removed = rest.remove(place).key();
+            let keys: Vec<String> = of.keys.iter().filter(|key| **key != removed).cloned().collect();
+            if known(&keys) {
+                return None;
+            }
+            self.explanation(self.study.fit(&rest, self.weights))
+        };
+        (0..of.fitted.additions.len()).filter_map(without).collect()
+    }
+}
+
+/// What kind of addition it is, for its prior probability.
+fn class(addition: &RigAddition) -> Class {
+    match &addition.kind {
+        Kind::Part(Part::Effect(_)) => Class::Law,
+        Kind::Part(Part::LawParameter(_)) => Class::Number,
+        Kind::Curve { over: None, .. } => Class::Level,
+        Kind::Curve { .. } => Class::Lawless,
+    }
+}

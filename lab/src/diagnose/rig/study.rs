@@ -1,0 +1,75 @@
+//! What all choices among explanations of a rig share: the readings, and the predictions of candidates.
+
+use super::super::search::descend;
+use super::addition::{RigAddition, moved};
+use super::candidates::unchanged_inputs;
+use super::noise::{Data, PreparedReadings};
+use super::prediction_table::{PredictionTable, predict};
+use crate::rig::{Forward, PredictedReading, PredictionError};
+
+/// First size of the simplex of a fit, and iterations a parameter.
+const FIT_SIMPLEX: f64 = 0.04;
+const FIT_ITERATIONS: u64 = 25;
+
+/// The readings of a rig and the predictions of candidates.
+pub(super) struct RigStudy<'a> {
+    pub forward: &'a dyn Forward,
+    pub data: Data,
+    pub seed: u64,
+    pub progress: &'a (dyn Fn() + Sync),
+    /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
+    pub unchanged: Vec<&'static str>,
+    /// Predictions of the candidates beside the base model.
+    pub table: PredictionTable,
+}
+
+impl<'a> RigStudy<'a> {
+    /// The study of the readings of a forward model.
+    ///
+    /// # Errors
+    /// Why the base model cannot decide an impact.
+    pub fn new(
+        forward: &'a dyn Forward,
+        seed: u64,
+        progress: &'a (dyn Fn() + Sync),
+    ) -> Result<Self, PredictionError> {
+        let base = predict(forward, &[])?;
+        let data = Data::new(forward.experiments(), &base);
+        let table = PredictionTable::new(forward, &data, base, progress);
+        Ok(Self { forward, data, seed, progress, unchanged: unchanged_inputs(forward), table })
+    }
+
+    /// Log likelihood of the measured values with these additions [nats]; minus infinity where the
+    /// model refuses an impact.
+    pub fn score(&self, additions: &[RigAddition], weights: &[f64]) -> f64 {
+        let Ok(predicted) = predict(self.forward, additions) else { return f64::NEG_INFINITY };
+        self.score_of(&predicted, weights)
+    }
+
+    pub fn score_of(&self, predicted: &[PredictedReading], weights: &[f64]) -> f64 {
+        self.data.score(&self.data.prepare(predicted), self.data.values(), weights)
+    }
+
+    /// Log likelihood of each experiment with a weight [nats]. Their sum is that of all together: what
+    /// the scatter between runs, which they share, adds to it is spread evenly.
+    pub fn scores(&self, prepared: &PreparedReadings, weights: &[f64]) -> Vec<f64> {
+        let values = self.data.values();
+        let each = self.data.log_scores(prepared, values, weights);
+        let inside = each.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
+        let inside: Vec<f64> = inside.map(|(score, _)| *score).collect();
+        let all = self.data.score(prepared, values, weights);
+        let rest = (all - inside.iter().sum::<f64>()) / inside.len().max(1) as f64;
+        inside.iter().map(|score| score + rest).collect()
+    }
+
+    /// All parameters fitted together, from their present values.
+    pub fn fit(&self, additions: &[RigAddition], weights: &[f64]) -> Vec<RigAddition> {
+        let start: Vec<f64> = additions.iter().flat_map(|addition| addition.at.clone()).collect();
+        if start.is_empty() {
+            return additions.to_vec();
+        }
+        let cost = |at: &[f64]| -self.score(&moved(additions, at), weights);
+        let (at, _) = descend(cost, &start, FIT_SIMPLEX, FIT_ITERATIONS * start.len() as u64);
+        moved(additions, &at)
+    }
+}
