@@ -51,7 +51,7 @@ pub fn diagnose(bytes: &[u8]) {
         (row.line > most || long).then(|| "more than the fuzzer has time for".to_owned())
     });
     let options = Options { seed: u64::from(choice >> 4), ..Options::default() };
-    let (diagnosis, extended) = match judge(&model, text_of_model, &data, &options, &|| ()) {
+    let (diagnosis, extended) = match judge(&model, text_of_model, &data, &options, &|_| ()) {
         Ok(found) => found,
         Err(error) => {
             let said = error.to_string();

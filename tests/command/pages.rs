@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::common::browser::{Seen, browse};
-use crate::runner::done;
+use crate::runner::{done, refused};
 
 /// Asserts that the page stands alone and shows at least `figures` pictures, each with a heading and axes.
 fn looks_right(page: &Path, figures: usize) {
@@ -100,10 +100,15 @@ fn page_of_a_rig() {
     }
     write("rig.csv", &data);
     let path = |file: &str| folder.path().join(file).to_str().unwrap().to_owned();
-    done(
-        Path::new("."),
-        &["diagnose", &path("rig.csv"), "--case", &path("case.toml"), "--draws", "2", "--out", &path("out")],
-    );
+    let [data, case, out] = ["rig.csv", "case.toml", "out"].map(path);
+    let arguments = ["diagnose", &data, "--case", &case, "--draws", "2", "--out", &out, "--reach"];
+    refused(Path::new("."), &[&arguments[..], &["v_n=8:20"]].concat(), &["`v_n`", "as particles.speed"]);
+    done(Path::new("."), &[&arguments[..], &["particles.speed=8:20"]].concat());
+    // What to measure next lies where the laboratory says that it can measure.
+    let next = std::fs::read_to_string(folder.path().join("out/next_experiments.csv")).unwrap();
+    let speeds: Vec<f64> =
+        next.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().parse().unwrap()).collect();
+    assert!(!speeds.is_empty() && speeds.iter().all(|speed| (8.0..=20.0).contains(speed)), "{next}");
     let page = folder.path().join("out/report.html");
     looks_right(&page, 4);
     let html = std::fs::read_to_string(&page).unwrap();

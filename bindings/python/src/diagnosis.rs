@@ -34,7 +34,7 @@ pub fn diagnose(
         let document = Document::new(name.as_str(), text);
         let diagnosis = ImpactDiagnosis::new(document, columns.as_deref(), wall.as_deref(), options)?;
         let measured = diagnosis.read(data.name(), data.open()?)?;
-        let (diagnosis, extended, drawn) = diagnosis.run(&measured, draws, tick)?;
+        let (diagnosis, extended, drawn) = diagnosis.run(&measured, draws, &|_| tick())?;
         let page = diagnosis_page(&diagnosis, &[measured.file, name], &extended)?;
         let json = serde_json::to_string_pretty(&diagnosis)? + "\n";
         Ok((json, extended, page, drawn, measured.notes))

@@ -72,6 +72,20 @@ pub(super) enum Candidate {
 }
 
 impl Candidate {
+    /// What is tried, for a reader who waits.
+    pub fn title(&self, data: &DataSplit) -> String {
+        let column = |column: &usize| data.covariates[*column].name.clone();
+        match self {
+            Self::Part(part) => part.name(),
+            Self::Curve { sides, observable } => {
+                let columns: Vec<String> = sides.iter().flatten().map(column).collect();
+                format!("{} over {}", observable.name(), columns.join(" and "))
+            }
+            Self::ScatterTrend { covariate } => format!("scatter over {}", column(covariate)),
+            Self::BackgroundCapture => "captures at a constant rate".to_owned(),
+        }
+    }
+
     pub fn class(&self, data: &DataSplit) -> Class {
         match self {
             Self::Part(Part::Effect(_)) => Class::Law,

@@ -27,7 +27,7 @@ pub(super) struct Task<'a> {
     pub groups: &'a [GroupColumn],
     pub effort: Effort,
     /// Called after each candidate.
-    pub progress: &'a (dyn Fn() + Sync),
+    pub progress: &'a (dyn Fn(&str) + Sync),
 }
 
 /// The result of a choice on the fitted rows of a [`DataSplit`].

@@ -67,7 +67,7 @@ impl<'a> CandidateRound<'a> {
     }
 
     /// The promising ones of some candidates with their gains.
-    pub fn score(&self, candidates: &[Candidate], done: &(dyn Fn() + Sync)) -> Vec<ScoredCandidate> {
+    pub fn score(&self, candidates: &[Candidate], done: &(dyn Fn(&str) + Sync)) -> Vec<ScoredCandidate> {
         let builder = ShapeBuilder::new(self.hypothesis, &self.search);
         let shapes: Vec<Shapes> = candidates.par_iter().map(|candidate| builder.shapes(*candidate)).collect();
         let units: Vec<usize> = self.search.rows.iter().map(|&row| self.data().units[row]).collect();
@@ -75,7 +75,7 @@ impl<'a> CandidateRound<'a> {
         let tested = score_test::test(&shapes, &units, classes);
         let score = |(&candidate, tested): (&Candidate, &Tested)| {
             let scored = self.score_candidate(candidate, tested);
-            done();
+            done(&candidate.title(self.data()));
             scored
         };
         let stochastic =

@@ -68,7 +68,7 @@ impl ImpactDiagnosis {
         &self,
         data: &Measurements,
         draws: usize,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(&str) + Sync),
     ) -> Result<(Diagnosis, String, Vec<String>), FileDiagnosisError> {
         let text = self.document.text();
         diagnose_with_draws(&self.model, text, data, &self.options, draws, progress).map_err(|reason| {

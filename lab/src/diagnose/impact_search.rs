@@ -45,7 +45,7 @@ pub(super) struct ImpactSearch<'a> {
     evidence: Evidence,
     /// Explanations of each expansion that are fitted together.
     refitted: usize,
-    progress: &'a (dyn Fn() + Sync),
+    progress: &'a (dyn Fn(&str) + Sync),
 }
 
 /// Evidence on the rows of the search.
@@ -67,7 +67,7 @@ impl<'a> ImpactSearch<'a> {
         (grounds, readings): (&'a [Ground], usize),
         evidence: Evidence,
         refitted: usize,
-        progress: &'a (dyn Fn() + Sync),
+        progress: &'a (dyn Fn(&str) + Sync),
     ) -> Self {
         Self { grounds, readings, evidence, refitted, progress }
     }

@@ -114,7 +114,7 @@ const SMALLEST_DIVISOR: f64 = 1e-15;
 /// Inputs that laws divide by.
 const DIVISORS: [&str; 5] = ["v_n", "v_t", "d", "T_p", "T_w"];
 
-/// Diagnoses `data` against the model `base` whose file has the text `text`. `progress` is called after each candidate.
+/// Diagnoses `data` against the model `base` whose file has the text `text`. `progress` is told each candidate.
 /// Returns the diagnosis and the text of the extended model.
 ///
 /// # Errors
@@ -124,7 +124,7 @@ pub fn diagnose(
     text: &str,
     data: &Measurements,
     options: &Options,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<(Diagnosis, String), DiagnosisError> {
     let (diagnosis, extended, _) = diagnose_with_draws(base, text, data, options, 0, progress)?;
     Ok((diagnosis, extended))
@@ -141,7 +141,7 @@ pub fn diagnose_with_draws(
     data: &Measurements,
     options: &Options,
     draws: usize,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<(Diagnosis, String, Vec<String>), DiagnosisError> {
     if let Some(reach) = options.reach.iter().find(|one| INPUTS.iter().all(|input| input.name != one.name)) {
         let inputs = INPUTS.map(|input| input.name).join(", ");

@@ -130,7 +130,7 @@ mod tests {
 
     fn diagnosed(data: &Measurements) -> Diagnosis {
         let model = Model::from_toml("base.toml", BASE).unwrap();
-        diagnose(&model, BASE, data, &Options::default(), &|| ()).unwrap().0
+        diagnose(&model, BASE, data, &Options::default(), &|_| ()).unwrap().0
     }
 
     #[test]

@@ -4,6 +4,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use indicatif::ProgressBar;
 use nearwall::Model;
 use nearwall::input::Document;
 use nearwall_lab::atomic_file::{make_folder, write_texts};
@@ -100,7 +101,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     bar.finish_and_clear();
     crate::note(&data.notes);
     let bar = progress::spinner("candidates tested");
-    let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|| bar.inc(1))?;
+    let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|what| tried(&bar, what))?;
     bar.finish_and_clear();
     if arguments.draws > 0 && draws.is_empty() {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
@@ -156,9 +157,16 @@ fn diagnosed(
 ) -> Result<RigDiagnosis, RigError> {
     let bar = progress::spinner("candidates tested");
     let options = options(arguments);
-    let found = diagnose_rig(forward, data, model, &options, arguments.draws, case, &|| bar.inc(1));
+    let found =
+        diagnose_rig(forward, data, model, &options, arguments.draws, case, &|what| tried(&bar, what));
     bar.finish_and_clear();
     found
+}
+
+/// Counts what was tried, and says what.
+fn tried(bar: &ProgressBar, what: &str) {
+    bar.inc(1);
+    bar.set_message(format!("candidates tested: {what}"));
 }
 
 fn write_impacts(

@@ -64,7 +64,7 @@ impl HeldOutExperiments {
                     predicted[index][1] = after[index];
                 }
             }
-            (study.progress)();
+            (study.progress)("experiments held out");
         }
         Ok(Some(Self { predicted }))
     }

@@ -75,7 +75,7 @@ const LEAST_READINGS: usize = 3;
 
 /// Diagnoses the readings of `forward` against the model file with the text `model`. `draws` model
 /// files are drawn from the fit; `case` simulates experiments that nobody has made yet, where there
-/// is one; `progress` is called after each candidate.
+/// is one; `progress` is told each candidate.
 ///
 /// # Errors
 /// [`RigError`].
@@ -86,7 +86,7 @@ pub fn diagnose_rig(
     options: &Options,
     draws: usize,
     case: Option<&CaseText>,
-    progress: &(dyn Fn() + Sync),
+    progress: &(dyn Fn(&str) + Sync),
 ) -> Result<RigDiagnosis, RigError> {
     if data.count() < LEAST_READINGS {
         let reasons = first_reasons(&data.rejected);

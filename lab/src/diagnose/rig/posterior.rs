@@ -71,7 +71,7 @@ impl Posterior {
             if found.weights.iter().sum::<f64>() > 0.0 {
                 (mean, covariance) = found.moments(&covariance);
             }
-            (study.progress)();
+            (study.progress)("values of the numbers");
         }
         Self { tried, ..found }
     }

@@ -57,7 +57,7 @@ impl PredictionTable {
         forward: &dyn Forward,
         data: &Data,
         base: Vec<PredictedReading>,
-        progress: &(dyn Fn() + Sync),
+        progress: &(dyn Fn(&str) + Sync),
     ) -> Self {
         let of = |addition: RigAddition| {
             let places = addition.places(addition.present(forward.base(0)));
@@ -70,7 +70,7 @@ impl PredictionTable {
                 changed.then(|| TabledPlace { at, prepared: Arc::new(data.prepare(&predicted)) })
             };
             let places: Vec<TabledPlace> = places.into_par_iter().filter_map(at).collect();
-            progress();
+            progress(&addition.name());
             (!places.is_empty()).then_some(TabledCandidate { addition, places })
         };
         let candidates = candidates(forward, data).into_par_iter().filter_map(of).collect();

@@ -65,7 +65,7 @@ pub(super) fn proposals(data: &RigMeasurements, text: &CaseText, reach: &[Reach]
     let ranges: Vec<Range> = if free { ranges(&known) } else { reach.iter().map(stated).collect() };
     let mut all: Vec<Settings> = Vec::new();
     let every = known.len().div_ceil(KNOWN).max(1);
-    all.extend(known.iter().step_by(every).map(|one| (*one).clone()));
+    all.extend(known.iter().step_by(every).filter(|_| free).map(|one| (*one).clone()));
     let corners = ranges.len().min(CORNERS);
     for corner in 0..1_usize << corners {
         let end = |place: usize| if place < corners { (corner >> place & 1) as f64 } else { 0.5 };

@@ -118,7 +118,7 @@ impl<'a> RigSearch<'a> {
     /// The same with all parameters fitted together.
     fn refitted(&self, new: RigExplanation) -> RigExplanation {
         let fitted = self.explanation(self.study.fit(&new.fitted.additions, self.weights));
-        (self.study.progress)();
+        (self.study.progress)(&new.keys.join(" and "));
         fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new)
     }
 

@@ -16,7 +16,7 @@ pub(super) struct RigStudy<'a> {
     pub forward: &'a dyn Forward,
     pub data: Data,
     pub seed: u64,
-    pub progress: &'a (dyn Fn() + Sync),
+    pub progress: &'a (dyn Fn(&str) + Sync),
     /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
     pub unchanged: Vec<&'static str>,
     /// Predictions of the candidates beside the base model.
@@ -31,7 +31,7 @@ impl<'a> RigStudy<'a> {
     pub fn new(
         forward: &'a dyn Forward,
         seed: u64,
-        progress: &'a (dyn Fn() + Sync),
+        progress: &'a (dyn Fn(&str) + Sync),
     ) -> Result<Self, PredictionError> {
         let base = predict(forward, &[])?;
         let data = Data::new(forward.experiments(), &base);
