@@ -82,7 +82,8 @@ impl Candidate {
                 format!("{} over {}", observable.name(), columns.join(" and "))
             }
             Self::ScatterTrend { covariate } => format!("scatter over {}", column(covariate)),
-            Self::BackgroundCapture => "captures at a constant rate".to_owned(),
+            Self::Captures(CaptureConstant::Rate) => "captures at a constant rate".to_owned(),
+            Self::Captures(CaptureConstant::Ceiling) => "a ceiling of captures".to_owned(),
         }
     }
 

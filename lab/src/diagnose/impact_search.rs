@@ -166,7 +166,7 @@ impl<'a> ImpactSearch<'a> {
         let ceiling = ScoredCandidate::unproven(addition, differences, prior(Class::Noise, 0));
         let below = self.beside(of, ceiling);
         let round = CandidateRound::new(&below.fitted.hypothesis);
-        let inside = round.score(&laws, &|| ()).into_iter().filter(|one| !one.addition.at_bound());
+        let inside = round.score(&laws, &|_| ()).into_iter().filter(|one| !one.addition.at_bound());
         let with = inside.map(|one| {
             let log_prior = prior(one.addition.class(hypothesis.data), 1);
             self.refitted(&below, self.beside(&below, ScoredCandidate { log_prior, ..one }))
