@@ -339,7 +339,7 @@ impl Data {
         let exact =
             |(datum, one): (&Datum, &PredictedReading)| PredictedReading { value: datum.value, ..*one };
         let exact: Vec<PredictedReading> = self.readings.iter().zip(predicted).map(exact).collect();
-        let score = |all: &[PredictedReading]| self.score(&self.prepare(all), &self.values(), weights);
+        let score = |all: &[PredictedReading]| self.score(&self.prepare(all), self.values(), weights);
         score(&exact) - score(predicted)
     }
 
