@@ -25,7 +25,7 @@ const ABSENT: f64 = f64::MAX;
 
 /// Digests of rows.
 #[derive(Debug, Clone, Default)]
-pub(super) struct FittedRows(BTreeSet<String>);
+pub struct FittedRows(BTreeSet<String>);
 
 impl FittedRows {
     /// Those that the text of a model file states.
@@ -56,6 +56,13 @@ impl FittedRows {
         let mut document: DocumentMut = text.parse()?;
         document.insert(TABLE, Item::Table(Table::from_iter([(KEY, value(lines))])));
         Ok(document.to_string())
+    }
+
+    /// The text of a model file without them, for a reader.
+    pub fn removed_from(text: &str) -> String {
+        let Ok(mut document) = text.parse::<DocumentMut>() else { return text.to_owned() };
+        document.remove(TABLE);
+        document.to_string()
     }
 
     /// Whether a row is one of them.

@@ -72,7 +72,7 @@ use crate::dataset::{BadRow, Measurement, Measurements};
 use choice::Task;
 use constants::{LEAST_ROWS, THOROUGH};
 use data_split::DataSplit;
-use fitted_rows::FittedRows;
+pub use fitted_rows::FittedRows;
 use groups::GroupColumn;
 use hypothesis::Hypothesis;
 use nearwall::impact::{INPUTS, Impact, Input};

@@ -4,7 +4,7 @@ use super::super::format::{listed, with_unit};
 use super::super::page::{Page, Table};
 use super::plot::title;
 use super::{cause_title, fit};
-use crate::diagnose::{Diagnosis, Finding, NextMeasurement, NotExamined};
+use crate::diagnose::{Diagnosis, Finding, FittedRows, NextMeasurement, NotExamined};
 use nearwall::effect::EFFECTS;
 use nearwall::impact::INPUTS;
 use toml_edit::{DocumentMut, Item, Value};
@@ -101,7 +101,7 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
     } else {
         format!("{file} is next to this page. It is the base model with the findings added:")
     });
-    page.code(extended.trim_end());
+    page.code(FittedRows::removed_from(extended).trim_end());
     let changes = &diagnosis.scatter.changes_with;
     if !changes.is_empty() {
         page.text(format!(
