@@ -235,14 +235,16 @@ mod tests {
     use super::VoidGas;
     use approx::assert_relative_eq;
 
-    /// Air of 300 and 1000 K (Incropera, table A.4): in between within 4 % of the table. A constant, an
+    /// Air of 300 and 1000 K (Incropera, table A.4): in between within 5 % of the table, at 1500 K 9 % low. A constant, an
     /// exponent that no gas has and temperatures side by side tell nothing of the slope.
     #[test]
     fn the_gas_in_the_voids_goes_through_both_points() {
         let air = VoidGas::through([1000.0, 0.0667], Some([300.0, 0.0263]));
         assert_relative_eq!(air.at(300.0), 0.0263, max_relative = 1e-12);
-        for (temperature, table) in [(500.0, 0.0407), (700.0, 0.0524), (1500.0, 0.100)] {
-            assert_relative_eq!(air.at(temperature), table, max_relative = 0.08);
+        for (temperature, table, error) in
+            [(500.0, 0.0407, 0.05), (700.0, 0.0524, 0.05), (1500.0, 0.100, 0.1)]
+        {
+            assert_relative_eq!(air.at(temperature), table, max_relative = error);
         }
         let alone = VoidGas::through([1000.0, 0.0667], None);
         assert_relative_eq!(alone.at(500.0), 0.0667 * 0.5_f64.powf(0.8), max_relative = 1e-12);
