@@ -214,13 +214,16 @@ typedef struct nw_wall_cooling {
   double irradiation;
   // Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
   double further_flux;
-  // Conductivity of the gas in the voids of the powder [W/(m K)] at `void_temperature`, positive. It
-  // changes with the powder's own temperature by the power `void_exponent`.
+  // Conductivity of the gas at the wall [W/(m K)] at its own temperature `void_temperature`, positive.
+  // In the voids of the powder it changes with the powder's temperature by a power, see `other_conductivity`.
   double gas_conductivity;
   // Temperature [K] for which `gas_conductivity` is given, positive.
   double void_temperature;
-  // Exponent of the conductivity over temperature [1]; 0.8 for air and flue gas.
-  double void_exponent;
+  // Conductivity of the same gas [W/(m K)] at another temperature, such as that of the surface: it tells
+  // the power. 0 where it is not known; then, and where no gas has such a power, it is the 0.8 of air.
+  double other_conductivity;
+  // Temperature [K] for which `other_conductivity` is given; 0 where there is none.
+  double other_temperature;
 } nw_wall_cooling;
 
 // Temperatures of a wall with a deposit.
@@ -551,7 +554,7 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            size_t *first_bad);
 
 // Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-// K) at 293.15 K with the exponent 0.8 for the gas in the voids (air), zeros. Both temperatures must be set.
+// K) at 293.15 K for the gas in the voids (air), zeros. The temperatures of coolant and gas must be set.
 //
 // # Safety
 // `cooling` can be written.

@@ -128,7 +128,8 @@ module nearwall
     real(c_double) :: further_flux
     real(c_double) :: gas_conductivity
     real(c_double) :: void_temperature
-    real(c_double) :: void_exponent
+    real(c_double) :: other_conductivity
+    real(c_double) :: other_temperature
   end type nw_wall_cooling
 
   type, bind(c) :: nw_wall_heat

@@ -495,13 +495,13 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     const label patchi = patches_[i];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
     const wallCooling* const cooling = cooled(patchi);
-    const scalarField voids
+    const List<nw_wall_cooling> held
     (
-        cooling ? cooling->voidConductivity() : tmp<scalarField>(new scalarField)
+        cooling ? cooling->cooling() : List<nw_wall_cooling>()
     );
     const List<nw_wall_cooling> heating
     (
-        cooling ? cooling->heating(voids) : List<nw_wall_cooling>()
+        cooling ? cooling->heating() : List<nw_wall_cooling>()
     );
     const scalarField& wallTemperature = fields_.on(depositFields::temperature, patchi);
     const patchSurroundings surroundings(*this, patchi);
@@ -517,7 +517,7 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
 
         if (cooling)
         {
-            recordHeat(d, patchi, facei, cooling->cooling(facei, voids[facei]));
+            recordHeat(d, patchi, facei, held[facei]);
         }
         const scalar slag = d.molten + d.frozen;
         if

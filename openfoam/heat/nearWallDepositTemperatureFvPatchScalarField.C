@@ -210,13 +210,6 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::memory() const
 
 
 Foam::tmp<Foam::scalarField>
-Foam::nearWallDepositTemperatureFvPatchScalarField::voidConductivity() const
-{
-    return nearWall::conductivityOf(thermo(), patch().index());
-}
-
-
-Foam::tmp<Foam::scalarField>
 Foam::nearWallDepositTemperatureFvPatchScalarField::effectiveConductivity() const
 {
     const scalarField none(size(), Zero);
@@ -247,28 +240,34 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::thermo() const
 }
 
 
-nw_wall_cooling Foam::nearWallDepositTemperatureFvPatchScalarField::cooling
-(
-    const label facei,
-    const scalar conductivity
-) const
+Foam::List<nw_wall_cooling>
+Foam::nearWallDepositTemperatureFvPatchScalarField::cooling() const
 {
-    nw_wall_cooling c(nearwall::make_wall_cooling());
-    c.coolant_temperature = given_.Ta;
-    c.wall_resistance = given_.resistance();
-    c.gas_temperature = (*this)[facei];
-    c.gas_coefficient = std::numeric_limits<double>::infinity();
-    c.gas_conductivity = conductivity;
-    c.void_temperature = (*this)[facei];
-    return c;
+    const label patchi = patch().index();
+    const scalarField beside(nearWall::conductivityBeside(thermo(), patchi));
+    const scalarField here(nearWall::conductivityOf(thermo(), patchi));
+    const scalarField gas(patchInternalField());
+    const scalarField& T = *this;
+    List<nw_wall_cooling> found(size());
+    forAll(found, i)
+    {
+        nw_wall_cooling& c = found[i];
+        c = nearwall::make_wall_cooling();
+        c.coolant_temperature = given_.Ta;
+        c.wall_resistance = given_.resistance();
+        c.gas_temperature = T[i];
+        c.gas_coefficient = std::numeric_limits<double>::infinity();
+        c.gas_conductivity = beside[i];
+        c.void_temperature = gas[i];
+        c.other_conductivity = here[i];
+        c.other_temperature = T[i];
+    }
+    return found;
 }
 
 
 Foam::List<nw_wall_cooling>
-Foam::nearWallDepositTemperatureFvPatchScalarField::heating
-(
-    const scalarField& conductivity
-) const
+Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
 {
     const scalarField conducted
     (
@@ -276,11 +275,10 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating
     );
     const scalarField gas(patchInternalField());
     const scalar sigma = constant::physicoChemical::sigma.value();
-    List<nw_wall_cooling> found(size());
+    List<nw_wall_cooling> found(cooling());
     forAll(found, i)
     {
         nw_wall_cooling& c = found[i];
-        c = cooling(i, conductivity[i]);
         c.gas_temperature = gas[i];
         c.gas_coefficient = conducted[i];
         c.emissivity = given_.emissivity;
@@ -328,12 +326,12 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
         return found;
     }
 
-    const scalarField gas(voidConductivity());
+    const List<nw_wall_cooling> faces(cooling());
     scalarField& resistance = found.ref();
     forAll(resistance, facei)
     {
         resistance[facei] =
-            deposits->heat(patch().index(), facei, cooling(facei, gas[facei]))
+            deposits->heat(patch().index(), facei, faces[facei])
            .deposit_resistance;
     }
     return found;

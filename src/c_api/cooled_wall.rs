@@ -34,13 +34,16 @@ pub struct nw_wall_cooling {
     pub irradiation: f64,
     /// Further heat flux into the surface [W/m2], of particles or the net one of a radiation model.
     pub further_flux: f64,
-    /// Conductivity of the gas in the voids of the powder [W/(m K)] at `void_temperature`, positive. It
-    /// changes with the powder's own temperature by the power `void_exponent`.
+    /// Conductivity of the gas at the wall [W/(m K)] at its own temperature `void_temperature`, positive.
+    /// In the voids of the powder it changes with the powder's temperature by a power, see `other_conductivity`.
     pub gas_conductivity: f64,
     /// Temperature [K] for which `gas_conductivity` is given, positive.
     pub void_temperature: f64,
-    /// Exponent of the conductivity over temperature [1]; 0.8 for air and flue gas.
-    pub void_exponent: f64,
+    /// Conductivity of the same gas [W/(m K)] at another temperature, such as that of the surface: it tells
+    /// the power. 0 where it is not known; then, and where no gas has such a power, it is the 0.8 of air.
+    pub other_conductivity: f64,
+    /// Temperature [K] for which `other_conductivity` is given; 0 where there is none.
+    pub other_temperature: f64,
 }
 
 /// Temperatures of a wall with a deposit.
@@ -84,7 +87,8 @@ impl Default for nw_wall_cooling {
             further_flux: 0.0,
             gas_conductivity: 0.026,
             void_temperature: 293.15,
-            void_exponent: VoidGas::AIR,
+            other_conductivity: 0.0,
+            other_temperature: 0.0,
         }
     }
 }
@@ -94,7 +98,9 @@ impl nw_wall_cooling {
     pub(super) fn sound(self) -> Result<Self, nw_status> {
         let given =
             [self.coolant_temperature, self.gas_temperature, self.gas_conductivity, self.void_temperature];
-        let sound = given.into_iter().all(is_positive) && self.void_exponent.is_finite();
+        let other = [self.other_conductivity, self.other_temperature];
+        let sound =
+            given.into_iter().all(is_positive) && (other == [0.0; 2] || other.into_iter().all(is_positive));
         if sound { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 
@@ -109,11 +115,10 @@ impl nw_wall_cooling {
                 irradiation: self.irradiation,
                 particle_flux: self.further_flux,
             },
-            void_gas: VoidGas {
-                conductivity: self.gas_conductivity,
-                temperature: self.void_temperature,
-                exponent: self.void_exponent,
-            },
+            void_gas: VoidGas::through(
+                [self.void_temperature, self.gas_conductivity],
+                (self.other_temperature > 0.0).then_some([self.other_temperature, self.other_conductivity]),
+            ),
         }
     }
 }
@@ -139,7 +144,7 @@ fn is_positive(number: f64) -> bool {
 }
 
 /// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-/// K) at 293.15 K with the exponent 0.8 for the gas in the voids (air), zeros. Both temperatures must be set.
+/// K) at 293.15 K for the gas in the voids (air), zeros. The temperatures of coolant and gas must be set.
 ///
 /// # Safety
 /// `cooling` can be written.

@@ -100,6 +100,26 @@ impl Melt {
         }
     }
 
+    /// Factor [1] of the 90 % band of the viscosity of the liquid at a temperature [K]; `None` for crystals, a
+    /// material's own viscosity, and where none is stated.
+    pub fn band_at(&self, temperature: f64) -> Option<f64> {
+        match &self.viscosity {
+            MeltViscosity::Oxides(law) if temperature >= self.solid_below => law.band_at(temperature),
+            MeltViscosity::Oxides(_) | MeltViscosity::Given(_) => None,
+        }
+    }
+
+    /// The law of a viscosity that follows from the composition, with its 90 % band, in words; `None` for a
+    /// material's own.
+    pub fn describe(&self) -> Option<String> {
+        let MeltViscosity::Oxides(slag) = &self.viscosity else { return None };
+        let band = match slag.law().band().filter(|_| slag.range().is_some()) {
+            Some(factor) => format!("within a factor of {factor:.1} in its range (90 % band)"),
+            None => "without a stated band for this composition".to_owned(),
+        };
+        Some(format!("viscosity from the composition by {}, {band}", slag.law().name))
+    }
+
     /// Viscosity [Pa s] on a wall at a temperature [K]: infinite where it is stiff or below a
     /// measured table, and that at the end of the table above it.
     pub fn film_viscosity(&self, temperature: f64) -> f64 {

@@ -106,14 +106,16 @@ impl ViscosityCriterion {
         material: &Material,
         particle: &Material,
     ) -> Result<Option<MeltStickiness>, Unsuitable> {
-        let melt = self.laws.prepare(material)?;
-        Ok(melt.map(|melt| MeltStickiness { criterion: self, melt, particle: Box::new(particle.clone()) }))
+        let (melt, name) = (self.laws.prepare(material)?, material.name().to_owned());
+        let of = |melt| MeltStickiness { name, criterion: self, melt, particle: Box::new(particle.clone()) };
+        Ok(melt.map(of))
     }
 }
 
 /// The criterion for one melt.
 #[derive(Debug, Clone)]
 pub struct MeltStickiness {
+    name: String,
     criterion: ViscosityCriterion,
     melt: Melt,
     /// For the density, where the impact does not give it.
@@ -184,6 +186,18 @@ impl StickinessCriterion for MeltStickiness {
 
     fn in_flight(&self, impact: &Impact) -> Result<f64, ImpactError> {
         Ok(sticking_probability(self.viscosity(impact.particle_temperature)?, self.reference(impact)))
+    }
+
+    /// With the viscosity at both ends of the band of its law.
+    fn in_flight_band(&self, impact: &Impact) -> Option<[f64; 2]> {
+        let factor = self.melt.band_at(impact.particle_temperature)?;
+        let (viscosity, reference) =
+            (self.viscosity(impact.particle_temperature).ok()?, self.reference(impact));
+        Some([viscosity * factor, viscosity / factor].map(|end| sticking_probability(end, reference)))
+    }
+
+    fn describe(&self) -> Option<String> {
+        Some(format!("{}: {}", self.name, self.melt.describe()?))
     }
 
     fn on_wall(&self, impact: &Impact) -> f64 {

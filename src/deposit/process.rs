@@ -43,10 +43,15 @@ pub struct WallCooling {
     pub void_gas: VoidGas,
 }
 
-/// Conductivity of the gas in the voids of powder: `k (T/T_0)^n` at the powder's own temperature.
+/// Conductivity of the gas in the voids of powder: `k (T/T_0)^n` at the powder's own temperature, the
+/// one law of it in every program.
 ///
-/// Air has `n` = 0.8 within 5 % from 300 to 1500 K (0.0263, 0.0667 and 0.100 W/(m K) at 300, 1000 and
-/// 1500 K; Incropera et al., table A.4, from memory).
+/// `k` is that of the gas at the wall, at the gas's own temperature `T_0`. [`VoidGas::through`] takes
+/// `n` from the same gas at another temperature. Kinetic theory has `n` = 0.5 for rigid molecules and
+/// more for real ones; a lower one is a number that stands for one temperature, such as a constant
+/// viscosity in a flow solver, and says nothing of others. Air has `n` = 0.8 within 5 % from 300 to
+/// 1500 K (0.0263, 0.0667 and 0.100 W/(m K) at 300, 1000 and 1500 K; Incropera et al., table A.4, from
+/// memory).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct VoidGas {
     /// Conductivity at `temperature`, `k` [W/(m K)].
@@ -60,6 +65,23 @@ pub struct VoidGas {
 impl VoidGas {
     /// Exponent of air [1].
     pub const AIR: f64 = 0.8;
+    /// Least exponent of a gas [1], that of rigid molecules, and one that no gas reaches: steam has 1.4.
+    const OF_GASES: [f64; 2] = [0.5, 2.0];
+    /// Least logarithm of the ratio of two temperatures [1] that tells an exponent.
+    const APART: f64 = 0.01;
+
+    /// Through the temperature [K] and the conductivity [W/(m K)] of a gas, and the same of it at
+    /// another temperature. Where there is no such point, or too near, or one that no gas has, the
+    /// exponent is that of air.
+    pub fn through([temperature, conductivity]: [f64; 2], other: Option<[f64; 2]>) -> Self {
+        let exponent = other.and_then(|[at, there]| {
+            let apart = (at / temperature).ln();
+            let exponent = (there / conductivity).ln() / apart;
+            let [least, most] = Self::OF_GASES;
+            (apart.abs() > Self::APART && (least..=most).contains(&exponent)).then_some(exponent)
+        });
+        Self { conductivity, temperature, exponent: exponent.unwrap_or(Self::AIR) }
+    }
 
     /// The conductivity at a temperature [W/(m K)].
     pub fn at(&self, temperature: f64) -> f64 {
@@ -206,6 +228,30 @@ pub(super) fn own_table<T: Process + 'static>(
     let process = read(&table)?;
     table.finish()?;
     Ok(Some(Arc::new(process)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::VoidGas;
+    use approx::assert_relative_eq;
+
+    /// Air of 300 and 1000 K (Incropera, table A.4): in between within 5 % of the table, at 1500 K 9 % low. A constant, an
+    /// exponent that no gas has and temperatures side by side tell nothing of the slope.
+    #[test]
+    fn the_gas_in_the_voids_goes_through_both_points() {
+        let air = VoidGas::through([1000.0, 0.0667], Some([300.0, 0.0263]));
+        assert_relative_eq!(air.at(300.0), 0.0263, max_relative = 1e-12);
+        for (temperature, table, error) in
+            [(500.0, 0.0407, 0.05), (700.0, 0.0524, 0.05), (1500.0, 0.100, 0.1)]
+        {
+            assert_relative_eq!(air.at(temperature), table, max_relative = error);
+        }
+        let alone = VoidGas::through([1000.0, 0.0667], None);
+        assert_relative_eq!(alone.at(500.0), 0.0667 * 0.5_f64.powf(0.8), max_relative = 1e-12);
+        for other in [[500.0, 0.0667], [500.0, 0.0667 * (1.0 + 1e-9)], [500.0, 0.01], [999.0, 0.0666]] {
+            assert_eq!(VoidGas::through([1000.0, 0.0667], Some(other)), alone, "{other:?}");
+        }
+    }
 }
 
 /// Helpers for the tests of processes.

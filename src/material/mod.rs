@@ -186,11 +186,12 @@ impl Material {
         fields.filter_map(|(field, p)| Some((field.key, field.limits.unit, p.as_ref()?)))
     }
 
-    /// Keys of the properties that follow from its composition and are not given.
-    pub fn estimated(&self) -> Vec<&'static str> {
-        let mechanical =
-            self.properties().filter(|(.., property)| property.is_estimated()).map(|(key, ..)| key);
-        let tension = self.surface_tension_by_composition().map(|_| "surface_tension");
+    /// The properties that follow from its composition and are not given: key, and the law with its error.
+    pub fn estimated(&self) -> Vec<(&'static str, &str)> {
+        let mechanical = self.properties().filter(|(.., property)| property.is_estimated());
+        let mechanical = mechanical.filter_map(|(key, _, property)| Some((key, property.source()?)));
+        let tension =
+            self.surface_tension_by_composition().map(|_| ("surface_tension", surface_tension::ORIGIN));
         mechanical.chain(tension).collect()
     }
 

@@ -31,31 +31,34 @@ impl Model {
             |criterion| format!("also by {criterion}"),
         );
         lines.push(("capture", capture));
-        let known = self.stickiness.as_ref().and_then(|criterion| criterion.describe());
-        lines.extend(known.map(|known| ("stickiness", known)));
         for term in &self.terms {
             lines.push(("effect", term.describe(&self.extra_inputs)));
         }
-        lines.extend(self.estimated().map(|text| ("estimated", text)));
+        lines.extend(self.estimates());
         lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines
     }
 
-    /// The properties of the materials in use that follow from a composition.
-    fn estimated(&self) -> Option<String> {
+    /// What decides the stickiness of the particles and has a band, and the properties of the materials in use that
+    /// follow from a composition, each with the error that its law states. Fusion temperatures and viscosity have 90 %
+    /// bands; density, elastic constants and surface tension a bound; the temperature of critical viscosity after Watt
+    /// and all that is given or built in have none.
+    pub fn estimates(&self) -> Vec<(&'static str, String)> {
         let of_walls = self
             .walls
             .iter()
             .flat_map(|wall| [Some(&wall.material), wall.slag.as_ref(), wall.powder.as_ref()]);
-        let mut texts = Vec::new();
+        let known = self.stickiness.as_ref().and_then(|criterion| criterion.describe());
+        let mut lines: Vec<_> = known.map(|known| ("stickiness", known)).into_iter().collect();
         for material in [Some(self.particle()), self.ash()].into_iter().chain(of_walls).flatten() {
-            let keys = material.estimated();
-            let text = format!("{} of {}", keys.join(", "), material.name());
-            if !keys.is_empty() && !texts.contains(&text) {
-                texts.push(text);
+            for (key, origin) in material.estimated() {
+                let line = ("estimated", format!("{key} of {}, {origin}", material.name()));
+                if !lines.contains(&line) {
+                    lines.push(line);
+                }
             }
         }
-        (!texts.is_empty()).then(|| format!("from the composition: {}", texts.join("; ")))
+        lines
     }
 
     /// A remark where criterion and effects multiply two stickinesses that both follow the particle's temperature.

@@ -24,6 +24,9 @@ const BAND: [&str; 2] = ["stickiness at 5 %", "stickiness at 95 %"];
 
 /// What watches the steps of an impact on a model.
 pub(super) trait Watcher<'m> {
+    /// Whether it shows what it receives: only then are bands computed.
+    const SHOWS: bool = false;
+
     /// Receives a quantity after a term.
     fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
 
@@ -229,10 +232,6 @@ impl Model {
         if let Some(criterion) = &self.stickiness {
             let stickiness = criterion.in_flight(impact)?;
             trace(criterion.name(), "particle stickiness", stickiness);
-            let ends = criterion.in_flight_band(impact);
-            for (quantity, end) in BAND.into_iter().zip(ends.into_iter().flatten()) {
-                trace(criterion.name(), quantity, end);
-            }
             product = Some(stickiness);
         }
         for term in &self.terms {
@@ -354,6 +353,12 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
     fn stickiness(&mut self, impact: &Impact) -> Result<Stickiness, ImpactError> {
         let mut trace = |term, quantity, value| self.watcher.trace(term, quantity, value);
         let mut particle = self.model.particle_stickiness(impact, &mut trace)?;
+        if let Some(criterion) = self.model.stickiness.as_ref().filter(|_| W::SHOWS) {
+            let ends = criterion.in_flight_band(impact);
+            for (quantity, end) in BAND.into_iter().zip(ends.into_iter().flatten()) {
+                self.watcher.trace(criterion.name(), quantity, end);
+            }
+        }
         if self.droplet_rebound.is_some() {
             self.watcher.trace("droplet rebound", "particle stickiness", 0.0);
             particle = 0.0;

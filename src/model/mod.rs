@@ -101,6 +101,8 @@ pub struct TemperatureRanges {
 }
 
 impl Watcher<'_> for Vec<TraceEntry> {
+    const SHOWS: bool = true;
+
     fn trace(&mut self, term: &'static str, quantity: &'static str, value: f64) {
         self.push(TraceEntry { term, quantity, value });
     }

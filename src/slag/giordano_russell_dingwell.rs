@@ -43,6 +43,7 @@ pub static GIORDANO_RUSSELL_DINGWELL: ViscosityLaw = ViscosityLaw {
     viscosity,
     viscosities,
     range: |composition| holds_for(composition).then_some([1373.0, 1980.0]),
+    error: Some(0.45),
 };
 
 /// Shares [wt%] of the fitted melts, iron as `FeO`.

@@ -39,6 +39,10 @@ const PER_MOLE_PERCENT: [(Oxide, f64); 7] = [
     (Oxide::B2O3, -2.86e-3),
 ];
 
+/// Law and error of the estimate, in words.
+pub const ORIGIN: &str =
+    "estimated from the composition after Kucuk et al., src/slag/surface_tension.rs: within 15 % (assumed)";
+
 /// Temperatures [K] at which the value is used without a flag: those of the measurements above.
 pub const KUCUK_TEMPERATURES: [f64; 2] = [1473.15, 1823.15];
 

@@ -49,6 +49,7 @@ pub static URBAIN: ViscosityLaw = ViscosityLaw {
     viscosity,
     viscosities,
     range: measured_range::temperatures,
+    error: Some(0.29),
 };
 
 /// Kalmanovitch and Frank 1988, refitted to coal ash slags.
@@ -59,6 +60,7 @@ pub static KALMANOVITCH_FRANK: ViscosityLaw = ViscosityLaw {
     viscosity,
     viscosities,
     range: measured_range::temperatures,
+    error: Some(0.18),
 };
 
 /// Shares of the three groups of oxides [1]; they add up to 1.

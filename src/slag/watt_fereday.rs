@@ -39,6 +39,8 @@ pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     viscosity,
     viscosities,
     range: |composition| FiveOxides::of(composition)?.is_like_british_ash().then_some(WATT_TEMPERATURES),
+    // None of the measured slags lies in its range.
+    error: None,
 };
 
 /// Shares [wt%] of the five oxides in Watt and Fereday's normalisation: they add up to 100, all iron as `Fe2O3`.

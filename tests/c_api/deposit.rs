@@ -280,7 +280,7 @@ fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
         void_gas: VoidGas {
             conductivity: cooling.gas_conductivity,
             temperature: cooling.void_temperature,
-            exponent: cooling.void_exponent,
+            exponent: 0.8,
         },
     }
 }
@@ -495,6 +495,15 @@ fn a_cooled_wall_by_hand() {
     let closed = nw_deposit { closed: 0.6e-3, ..powder };
     let dense = heat(&calls, model, &closed, 0.5, &by_hand()).unwrap().deposit_resistance;
     assert!(dense > 1.4e-3 / 1.4 && dense < 0.5 * loose, "{dense}");
+    // The gas is given at two temperatures, with the exponent 1.2 between them; or as a constant: air's.
+    for (other_conductivity, expected) in [(0.06 * (750.0_f64 / 293.15).powf(1.2), 1.2), (0.06, 0.8)] {
+        let cooling = nw_wall_cooling { other_conductivity, other_temperature: 750.0, ..by_hand() };
+        let found = heat(&calls, model, &powder, 0.5, &cooling).unwrap().deposit_resistance;
+        let mut cooling = in_rust(&by_hand());
+        cooling.void_gas.exponent = expected;
+        let rust = Model::from_toml("m", EVERY_REGIME).unwrap();
+        near(found, rust.wall_heat(1, &deposit_in_rust(&powder), 0.5, &cooling).unwrap().deposit_resistance);
+    }
     calls.free(model);
 }
 
@@ -705,7 +714,7 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
     for voidage in [-0.1, 1.0, f64::NAN] {
         assert_eq!(refused(&deposit, voidage, &cooling), NW_BAD_STATE);
     }
-    let fields: [fn(&mut nw_wall_cooling) -> &mut f64; 10] = [
+    let fields: [fn(&mut nw_wall_cooling) -> &mut f64; 11] = [
         |cooling| &mut cooling.coolant_temperature,
         |cooling| &mut cooling.gas_temperature,
         |cooling| &mut cooling.gas_conductivity,
@@ -715,12 +724,15 @@ fn a_cooled_wall_that_cannot_be_is_refused_and_nothing_written() {
         |cooling| &mut cooling.emissivity,
         |cooling| &mut cooling.irradiation,
         |cooling| &mut cooling.further_flux,
-        |cooling| &mut cooling.void_exponent,
+        |cooling| &mut cooling.other_conductivity,
+        |cooling| &mut cooling.other_temperature,
     ];
     for (index, field) in fields.into_iter().enumerate() {
         let mut bad = vec![f64::NAN, f64::NEG_INFINITY];
-        // Flux and exponent may have any sign, coefficients may be infinite, the first three must not be 0.
-        bad.extend((index < 8).then_some(-1.0));
+        // The flux may have any sign, coefficients may be infinite, the first three must not be 0, and one
+        // of the last two is nothing without the other.
+        bad.extend((index != 8).then_some(-1.0));
+        bad.extend((index > 8).then_some(0.1));
         bad.extend((index != 3 && index != 5).then_some(f64::INFINITY));
         bad.extend((index < 3).then_some(0.0));
         for number in bad {

@@ -610,6 +610,60 @@ fn powder_on_a_cooled_wall_melts_where_it_is_hot() {
     }
 }
 
+/// Drops of slag of 1700 K freeze on a wall cooled to 600 K until the frozen layer insulates so well that its
+/// surface has the 1400 K below which the slag is solid; from then on the drops stay a film (Seggiani, Fuel 77
+/// (1998) 1611). By hand, with resistances in series [m² K/W]: `1/h_c + R_w` = 1/2000 + 0.005/20 of coolant and
+/// wall, `m/(2500·1.5)` of slag of a mass `m` per area [kg/m²], `1/h` = 1/200 of the gas of 1800 K, at whose end
+/// the drops bring `b` = 1000 (1700 - `T_met`) J/kg [W/m²]:
+/// `q = (1800 + b/200 - 600)/(all)`, and the front where `1400 = 600 + q (1/h_c + R_w + m_solid/3750)`. What lands
+/// on a surface below 1400 K is powder, here without voids, and what freezes under the film is frozen slag.
+#[test]
+fn drops_freeze_on_a_cooled_wall_until_their_film_stays_liquid() {
+    let slag = "[model.capture]\nmodel = \"viscosity\"\nlaw = \"kalmanovitch-frank\"\nreference_viscosity = 1e4\n\
+                [model.materials.slag]\ndensity = 2500\nyoungs_modulus = 1e10\npoisson_ratio = 0.2\n\
+                yield_strength = 1e8\nsurface_energy = 0.1\nviscosity = 100\nthermal_conductivity = 1.5\n\
+                heat_capacity = 1000\ncritical_viscosity_temperature = 1400\n";
+    let cooling = "cooling = { coolant_temperature = 600, coolant_coefficient = 2000, thickness = 5e-3, \
+                   conductivity = 20, gas_coefficient = 200, gas_temperature = 1800 }\n";
+    let transition = "[[model.effects]]\nkind = \"melting-transition\"\ntemperature = 400\nwidth = 2\n";
+    let text = falling("", "voidage = 0\n")
+        .replace(transition, slag)
+        .replace("montan-wax", "slag")
+        .replace("temperature = 500\ndensity = 1000\nconversion = 0", "temperature = 1700\ndensity = 2500")
+        .replace("mass = 1e-5", "mass = 1e-3")
+        .replace("duration = 40\nsteps = 20", "duration = 4000\nsteps = 100")
+        .replace("normal = [0, 0, 1]\ntemperature = 300\n", &format!("normal = [0, 0, 1]\n{cooling}"));
+    let (trajectories, runs) = trajectories_of(&text);
+    assert_eq!(runs[0].totals.ends.captured.count, 200);
+    let bin = &runs[0].deposits.as_ref().unwrap().walls[0].bins[0];
+    let [area, clean] = [PI * 0.0025f64.powi(2), 1.0 / 2000.0 + 5e-3 / 20.0];
+    let mut liquid = 0;
+    for step in 1..=100 {
+        let mass = 1e-3 * step as f64 / 100.0 / area;
+        let brought = 1e-3 / 4000.0 / area * 1000.0 * (1700.0 - bin.heat[step - 1].surface_temperature);
+        let flux = (1200.0 + brought / 200.0) / (clean + mass / 3750.0 + 1.0 / 200.0);
+        let solid = mass.min(3750.0 * (800.0 / flux - clean));
+        let (state, heat) = (&bin.states[step], &bin.heat[step]);
+        near(state.powder + state.frozen, solid, 1e-9);
+        assert!((state.molten - (mass - solid)).abs() < 1e-9 * mass, "{state:?}");
+        near(heat.heat_flux, flux, 1e-9);
+        near(heat.coolant_flux, flux, 1e-9);
+        near(heat.surface_temperature, 600.0 + flux * (clean + mass / 3750.0), 1e-9);
+        if solid < mass {
+            near(heat.sides.molten[0], 1400.0, 1e-9);
+            liquid += 1;
+        }
+    }
+    // Under a film next to nothing: 800 K over (80 000 + b) W/m² less 7.5e-4, some 13 mm of slag.
+    let first = bin.states.iter().find(|state| state.molten > 0.0).unwrap();
+    assert!((12e-3..14e-3).contains(&((first.powder + first.frozen) / 2500.0)), "{first:?}");
+    assert!(bin.states[100].frozen > 0.0 && bin.states[100].powder > 0.0, "{:?}", bin.states[100]);
+    assert!((20..50).contains(&liquid), "{liquid}");
+    // The first drops meet the bare wall, the last ones the film.
+    let met = |hit: usize| trajectories[hit].hits[0].impact.wall_temperature;
+    assert!(met(0) < 1000.0 && met(199) > 1400.0, "{} {}", met(0), met(199));
+}
+
 /// Mass [kg] that a process took from a bin up to a step.
 fn lost(bin: &BinHistory, loss: &str, step: usize) -> f64 {
     let place = PROCESSES.iter().position(|process| process.loss == Some(loss)).unwrap();

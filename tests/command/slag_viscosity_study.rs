@@ -46,6 +46,7 @@ static SILICA_CORRECTED: ViscosityLaw = ViscosityLaw {
         (KALMANOVITCH_FRANK.viscosities)(level, coefficients, temperatures, out);
     },
     range: measured_range::temperatures,
+    error: None,
 };
 const SILICA_OFFSET: f64 = 0.062123384;
 const SILICA_SLOPE: f64 = -0.131094130;

@@ -86,7 +86,7 @@ class nw_wall_cooling(Structure):
         ("coolant_coefficient", c_double), ("wall_resistance", c_double), ("gas_temperature", c_double),
         ("gas_coefficient", c_double), ("emissivity", c_double), ("irradiation", c_double),
         ("further_flux", c_double), ("gas_conductivity", c_double), ("void_temperature", c_double),
-        ("void_exponent", c_double)]
+        ("other_conductivity", c_double), ("other_temperature", c_double)]
 
 
 class nw_wall_heat(Structure):
@@ -239,9 +239,9 @@ class DepositSource(nw_deposit_source):
 class WallCooling(nw_wall_cooling):
     """What cools and heats a wall: coolant_temperature and gas_temperature [K]; coolant_coefficient (infinite unless given)
     and gas_coefficient [W/(m2 K)]; wall_resistance, thickness over conductivity [m2 K/W]; emissivity [1]; irradiation and
-    further_flux [W/m2]; gas_conductivity in the voids of the powder at void_temperature [K], which changes with the power
-    void_exponent [1] of the temperature, unless given those of air: 0.026 W/(m K), 293.15 and 0.8. The others are 0
-    unless given."""
+    further_flux [W/m2]; gas_conductivity of the gas at void_temperature [K], unless given 0.026 W/(m K) at 293.15, and
+    other_conductivity at other_temperature, which tell how it changes in the voids of the powder; as that of air unless
+    given. The others are 0 unless given."""
 
     def __init__(self, coolant_temperature: float, gas_temperature: float, **others: float) -> None:
         super().__init__()

@@ -355,7 +355,8 @@ fn cooling(bytes: &mut Bytes<'_>) -> nw_wall_cooling {
         &mut cooling.further_flux,
         &mut cooling.gas_conductivity,
         &mut cooling.void_temperature,
-        &mut cooling.void_exponent,
+        &mut cooling.other_conductivity,
+        &mut cooling.other_temperature,
     ];
     let which = u16::from_le_bytes(which);
     for (bit, field) in fields.into_iter().enumerate() {

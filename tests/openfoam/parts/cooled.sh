@@ -125,15 +125,15 @@ case_grown() {
     then ok "grown/effects (surface up to $t K, melted $molten kg, shed $shed of 0.006 kg)"
     else bad grown/effects "$t K, melted $molten kg, powder $(last "$f" powder_kg) kg, shed $shed kg"; fi
 
-    # OpenFOAM does not restart the gas to the last bit, and the walls feel it: its heat melts the deposit
+    # OpenFOAM restarts the gas to some 5e-6, and the walls feel it: its heat and its conductivity melt the deposit
     rm -rf "$dir-restart"; mkdir "$dir-restart"; cp -r 0 0.06 constant system "$dir-restart"; cd "$dir-restart" || return
     settings 0.1 0.02 latestTime ascii
-    solve grown restart "$solver" && same_walls grown/restart 0.06 1e-6 1e-5
+    solve grown restart "$solver" && same_walls grown/restart 0.06 1e-6 1e-4
 
     rm -rf "$dir-killed"; mkdir "$dir-killed"; cp -r "$dir"/{0,constant,system} "$dir-killed"; cd "$dir-killed" || return
     kill_at 0.07 killed
     settings 0.1 0.02 latestTime ascii
-    solve grown again "$solver" && same_walls grown/killed 0.06 1e-6 1e-5
+    solve grown again "$solver" && same_walls grown/killed 0.06 1e-6 1e-4
 
     rm -rf "$dir-2"; mkdir "$dir-2"; cp -r "$dir"/{0,constant,system} "$dir-2"; cd "$dir-2" || return
     ranks_are 2
@@ -185,8 +185,8 @@ END
 
 # The same wall in `nearwall simulate`: 2 mm of powder that sinters and melts from outside under radiation and freezes again as
 # it conducts better, for 1000 s. The gas of the box has 1200 K, conducts mu Cp/Pr = 0.02829 W/m/K over half a cell of 25 mm,
-# and hardly cools. In the voids it has that conductivity at the temperature of the surface, in `simulate` of the first one,
-# 1600 K. The ash melts at 1607 K: all that melts does so in the first step, in which the surfaces are alike.
+# and does not change within 1 ms. The ash melts at 1607 K. OpenFOAM's constants have six digits, its sigma is 6e-6 too large:
+# as much as surroundings of 1700.0027 K. Its temperatures are those before the last step, within one update of its condition.
 case_agrees() {
     local theirs ours said f
     cooled_box "$work/agrees" 0 || return
@@ -202,24 +202,26 @@ model = "viscosity"
 law = "kalmanovitch-frank"
 reference_viscosity = 1e5
 END
-    sed -i 's/memory {}/memory { acceleration 10000; }/' constant/interaction
+    sed -i 's/memory {}/memory { acceleration 1e6; }/' constant/interaction
+    sed -i 's/deltaT .*/deltaT 2e-5;/' system/controlDict
+    sed -i 's/endTime .*/endTime 1e-3;/; s/writeInterval .*/writeInterval 50;/' system/settings
     wall_condition "type nearWallDepositTemperature; cloud coalCloud1; h 900; Ta 500; emissivity 0.9; surroundingsTemperature 1700;"
     sed -i 's/uniform 700/uniform 1600/' 0/T
     solve agrees openfoam "$solver" || return
     f="$(folder coalCloud1)/floor.wall.dat"
     theirs="$(last "$f" molten_mean_kg_m2) $(last "$f" powder_mean_kg_m2) $(last "$f" frozen_mean_kg_m2) $(last "$f" layer_thickness_mean_m) $(last "$f" wall_temperature_mean_K) $(last "$f" heat_flux_mean_W_m2)"
-    simulate_floor agrees 1600 0.2175 0.0282857 1000 50 'wall = "default"
-cooling = { coolant_temperature = 500, coolant_coefficient = 900, thickness = 0, conductivity = 1, gas_temperature = 1200, gas_coefficient = 2.26286, emissivity = 0.9, surroundings_temperature = 1700 }' || return
+    simulate_floor agrees 1200 0.29 0.0282857142857 1000 50 'wall = "default"
+cooling = { coolant_temperature = 500, coolant_coefficient = 900, thickness = 0, conductivity = 1, gas_coefficient = 2.26285714286, emissivity = 0.9, surroundings_temperature = 1700.0027 }' || return
     ours="$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) at[$i] = i; next }
-        { m = $at["molten_kg_m2"]; p = $at["powder_kg_m2"]; f = $at["frozen_kg_m2"]; l = $at["layer_thickness_m"]; T = $at["surface_temperature_K"]; q = $at["heat_flux_W_m2"] }
-        END { print m, p, f, l, T, q }' simulated/deposit.csv)"
-    # Steps of 20 s, in which the first surface differs, and later ones move the conductivity in the voids
+        { T = now; now = $at["surface_temperature_K"]; q = flux; flux = $at["heat_flux_W_m2"] }
+        { m = $at["molten_kg_m2"]; p = $at["powder_kg_m2"]; f = $at["frozen_kg_m2"]; l = $at["layer_thickness_m"] }
+        END { print m, p, f, l, T, q }' OFMT=%.12g simulated/deposit.csv)"
     if said="$(awk -v a="$theirs" -v b="$ours" 'BEGIN {
         split(a, x, " "); split(b, y, " ")
-        for (i = 4; i <= 6; i++) { d = x[i]/y[i] - 1; if (d < 0) d = -d; if (d > most) most = d }
-        printf "surface %.1f and %.1f K, layer %.3f and %.3f mm, largest difference %.1e", x[5], y[5], 1e3*x[4], 1e3*y[4], most
-        d = x[1] + x[2] + x[3] - 2.3; m = x[1] + x[3] - y[1] - y[3]
-        exit !(most < 5e-3 && d*d < 1e-24 && m*m < 4e-4 && y[4] < 1.5e-3) }')"
+        x[3] += x[1]; y[3] += y[1]
+        for (i = 2; i <= 6; i++) { d = x[i]/y[i] - 1; if (d < 0) d = -d; if (d > most[i > 4]) most[i > 4] = d }
+        printf "slag %.4f and %.4f kg/m2, layer %.4f and %.4f mm: within %.1e, surface and heat flux within %.1e", x[3], y[3], 1e3*x[4], 1e3*y[4], most[0], most[1]
+        exit !(most[0] < 1e-5 && most[1] < 1e-3 && x[3] > 0.05 && y[4] < 1.5e-3) }')"
     then ok "agrees ($said)"; else bad agrees "OpenFOAM $theirs, simulate $ours"; fi
 }
 

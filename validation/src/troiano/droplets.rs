@@ -122,7 +122,9 @@ impl DropletResults {
             ),
             "Neither has the slight trends, falling with speed at small angles and rising at large ones. \
              The paper prints no numbers for a comparison. The droplet criterion excludes splashing as \
-             their cause; it does not include a melt that slides off or rebounds as a whole."
+             their cause; it does not include a melt that slides off or rebounds as a whole. A model file \
+             can state both trends as curves over the speeds along and towards the wall: sliding.toml, with \
+             assumed numbers."
                 .to_owned(),
         ]
     }

@@ -2,6 +2,7 @@
 
 use nearwall::input::unknown;
 use nearwall::material::{Library, Material, built_in_toml};
+use nearwall::slag::surface_tension;
 
 use crate::CommandResult;
 
@@ -71,7 +72,7 @@ fn show(material: &Material, temperature: f64) -> String {
         && let Some(tension) = material.surface_tension_near(temperature)
     {
         lines.push(format!("  {:<16} {} N/m", "surface_tension", short(tension)));
-        lines.push(format!("  {:<16}   source: estimated from the composition after Kucuk et al.", ""));
+        lines.push(format!("  {:<16}   source: {}", "", surface_tension::ORIGIN));
     }
     if let Some(composition) = material.composition() {
         let oxides: Vec<String> =

@@ -268,6 +268,9 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
                     speeds.yielding,
                     speeds.sticking
                 );
+                for (what, estimate) in model.estimates() {
+                    text += &format!("{what}: {estimate}\n");
+                }
                 for reason in &predicted.beyond {
                     text += &format!("outside its range: {reason}\n");
                 }

@@ -115,18 +115,15 @@ impl Gas {
         }
     }
 
-    /// The gas in the voids of a deposit at a position [m] of a wall with a coolant temperature [K]: a power
-    /// law through the conductivity at both temperatures, or as near to the colder one as it is known;
-    /// that of air through a single number.
+    /// The gas in the voids of a deposit at a position [m] of a wall with a coolant temperature [K]: through
+    /// the conductivity at both temperatures, or as near to the colder one as it is known.
     pub(super) fn in_voids(&self, position: &Vector3<f64>, coldest: f64) -> VoidGas {
         let GasState { temperature, conductivity, .. } = self.at(position);
         let [.., property, _] = &self.properties;
         let [low, high] = property.known_range().unwrap_or([temperature; 2]);
         let other = coldest.max(low).min(high);
-        let exponent = property.at(other).ok().filter(|_| (other / temperature).ln().abs() > 0.01);
-        let exponent = exponent
-            .map_or(VoidGas::AIR, |at_other| (at_other / conductivity).ln() / (other / temperature).ln());
-        VoidGas { conductivity, temperature, exponent }
+        let there = property.at(other).ok().map(|conductivity| [other, conductivity]);
+        VoidGas::through([temperature, conductivity], there)
     }
 
     /// The same gas at one temperature [K] everywhere.
