@@ -1,6 +1,6 @@
 //! The sentences of a verdict. Those of impacts and of a rig differ in some words.
 
-use super::constants::{NAMED, REFUTED};
+use super::constants::{LISTED, NAMED, REFUTED};
 use super::record::{
     Calibration, Diagnosis, ExplanationFound, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained,
 };
@@ -150,6 +150,8 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
             "With {causes} the model predicts {unseen} that it has not seen worse than without: nothing is named."
         );
     }
+    let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
+    let base: f64 = diagnosis.explanations.iter().filter(as_it_is).map(|one| one.probability).sum();
     if !diagnosis.undecided.is_empty() {
         let one = |name: &String| {
             let with = diagnosis.explanations.iter().filter(|one| one.causes.contains(name));
@@ -159,13 +161,19 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
             }
         };
         let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
-        return format!("These {data} speak against the {subject}, but cannot tell which of {causes}.");
+        return match base {
+            small if small <= 1.0 - LISTED => {
+                format!("These {data} speak against the {subject}, but cannot tell which of {causes}.")
+            }
+            _ => format!(
+                "The {subject} probably lacks something ({}), but these {data} cannot tell which of {causes}.",
+                probability_words(1.0 - base)
+            ),
+        };
     }
     if diagnosis.unexplained_capture.is_some() || diagnosis.capture_ceiling.is_some() {
         return format!("In {seen} no effect is significant, but the model does not reproduce the captures.");
     }
-    let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
-    let base: f64 = diagnosis.explanations.iter().filter(as_it_is).map(|one| one.probability).sum();
     if is_refuted(&diagnosis.fit) && base >= NAMED {
         return (*carries).to_owned();
     }

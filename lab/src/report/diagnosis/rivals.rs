@@ -79,7 +79,7 @@ pub(in crate::report) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
     }
     let names: Vec<String> = causes.iter().map(|cause| cause_title(cause)).collect();
     let first = format!(
-        "These data speak against the model, but cannot tell which of {} it lacks. None is in the extended model.",
+        "The data cannot tell which of {} the model lacks. None is in the extended model.",
         listed(&names, "or")
     );
     let lines = vec![first, to_separate(causes)];

@@ -134,7 +134,7 @@ fn averages_far_from_the_model_are_not_called_noise() {
             "A misfit this large happens by chance less than once in 1e12 data sets.",
             "standard deviation of 0.01 in e_t beyond the stated errors.",
             "9 e_t 0.745 0.125 +62.0",
-            "cannot tell which of sliding-to-rolling, thermal-softening or curve over day it lacks",
+            "cannot tell which of sliding-to-rolling, thermal-softening or curve over day the model lacks",
             "vary one of these with everything else constant: T_p (only thermal-softening depends on it), day (only",
             "T_p is blank, taken as 293.15 K.",
             "Column T_w looks like Celsius.",
