@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import math
 import pathlib
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
-from typing import Any, Dict, List, Optional, Tuple, Union
+from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from .frames import Table, source
 from .library import Model
@@ -156,7 +157,8 @@ class Diagnosis:
 
 
 def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[AnyPath] = None, group: Optional[str] = None,
-             wall: Optional[str] = None, seed: int = 1, level: float = 0.05, draws: int = 0) -> Diagnosis:
+             wall: Optional[str] = None, seed: int = 1, level: float = 0.05, draws: int = 0,
+             reach: Optional[Mapping[str, Tuple[float, float]]] = None) -> Diagnosis:
     """Finds the effects that a model lacks to explain measured impacts, as the command `nearwall diagnose` does.
 
     table: a pandas or polars frame, a dict of arrays, or the path of a CSV file, three rows or more. One row is an impact or an
@@ -169,13 +171,19 @@ def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[An
     seed: of the split into fitted and held-out rows; the same seed gives the same result.
     level: accepted share of false discoveries, between 0 and 0.5.
     draws: number of model files to draw from the fit; the range over 39 is a 95 % band.
+    reach: what can be varied in the next measurement: input and its least and largest value in SI units, as
+        {"T_p": (290, 400)}; by default what varies in the data, up to twice its range.
 
     Raises Error, as the command; what the command notes on standard error is a warning. Lines count from the header, line 1.
     Ctrl-C ends it.
     """
     if not 0 < level < 0.5:
         raise ValueError(f"level {level}: must lie between 0 and 0.5")
+    ranges = [(name, (float(low), float(high))) for name, (low, high) in (reach or {}).items()]
+    for name, (low, high) in ranges:
+        if not -math.inf < low < high < math.inf:
+            raise ValueError(f"reach {name}: {low} to {high} is no range")
     text, extended, page, drawn, notes = compiled().diagnose(
-        model_of(model), source(table), columns, group, wall, seed, level, draws)
+        model_of(model), source(table), columns, group, wall, seed, level, draws, ranges)
     warn(notes)
     return Diagnosis(json.loads(text), extended, page, drawn, text)

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use nearwall::input::Document;
-use nearwall_lab::diagnose::{ImpactDiagnosis, Options};
+use nearwall_lab::diagnose::{ImpactDiagnosis, Options, Reach};
 use nearwall_lab::report::diagnosis_page;
 use pyo3::prelude::*;
 
@@ -15,7 +15,7 @@ type DiagnosisOutput = (String, String, String, Vec<String>, Vec<String>);
 
 /// Diagnoses measured impacts against a model, given by name and text.
 #[pyfunction]
-#[pyo3(signature = (model, data, columns, group, wall, seed, level, draws))]
+#[pyo3(signature = (model, data, columns, group, wall, seed, level, draws, reach))]
 #[expect(clippy::too_many_arguments, reason = "the options of the command")]
 pub fn diagnose(
     py: Python<'_>,
@@ -27,10 +27,12 @@ pub fn diagnose(
     seed: u64,
     level: f64,
     draws: usize,
+    reach: Vec<(String, [f64; 2])>,
 ) -> PyResult<DiagnosisOutput> {
     let (name, text) = model;
     run(py, move |tick| {
-        let options = Options { seed, level, group, ..Options::default() };
+        let reach = reach.into_iter().map(|(name, range)| Reach { name, range }).collect();
+        let options = Options { seed, level, group, reach };
         let document = Document::new(name.as_str(), text);
         let diagnosis = ImpactDiagnosis::new(document, columns.as_deref(), wall.as_deref(), options)?;
         let measured = diagnosis.read(data.name(), data.open()?)?;

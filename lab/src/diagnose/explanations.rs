@@ -131,14 +131,16 @@ impl<A: Clone> Explanations<A> {
         })
     }
 
-    /// Other causes than this one, the most probable first.
+    /// Other causes in the stead of this one, the most probable first.
     pub fn alternatives(&self, cause: &str) -> Vec<Alternative> {
         let gain = self.best().map_or(0.0, |best| best.gain);
         let mut all: Vec<Alternative> = Vec::new();
         for one in self.0.iter().filter(|one| !one.has(cause) && one.is_physics()) {
             for name in one.told.causes.iter().filter(|name| !self.is_in_best(name)) {
                 if all.iter().all(|known| known.cause != *name) {
-                    let (score_difference, probability) = (gain - one.gain, self.probability(name));
+                    let instead = self.0.iter().filter(|one| !one.has(cause) && one.has(name));
+                    let probability = instead.map(|one| one.probability).sum();
+                    let score_difference = gain - one.gain;
                     all.push(Alternative { cause: name.clone(), score_difference, probability });
                 }
             }

@@ -206,7 +206,7 @@ pub struct Alternative {
     pub cause: String,
     /// Difference in gain to the chosen cause [nats].
     pub score_difference: f64,
-    /// Probability that it takes part in the explanation [1].
+    /// Probability of the explanations in which it stands in the stead of the cause [1].
     pub probability: f64,
 }
 
@@ -390,7 +390,7 @@ pub struct Rival {
     pub gain: f64,
     /// Gain minus that of the best explanation by physics [nats]; positive if it explains more.
     pub lead: f64,
-    /// Probability that it takes part in the explanation [1].
+    /// Probability of the explanations in which it stands in the stead of the cause [1].
     pub probability: f64,
     /// What it says, in one sentence: "These numbers fit if d were twice as large: is the radius given?".
     pub explanation: String,
