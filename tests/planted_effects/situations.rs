@@ -8,6 +8,7 @@
 //! `NEARWALL_COVERAGE_SETS` is the number of sets whose law is the library's own, for the coverage of intervals.
 //! `NEARWALL_PLANTED_TABLE` names a file to which each set adds a line, to compare two commands set by set.
 
+mod advice;
 mod captures;
 mod check;
 mod dependent;
@@ -173,6 +174,18 @@ fn diagnoses_hold_in_a_laboratory() {
     let all: Vec<_> = wanted().par_iter().map(one).collect();
     let failures = table::report(&all);
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// The advice on what to measure next names the law with fewer shots than even shots.
+#[test]
+#[ignore = "minutes: cargo test --release --test planted_effects -- --nocapture --ignored advice_names"]
+fn advice_names_the_law() {
+    let seed = random::seed();
+    let all = advice::compare(seed, 24, 64);
+    let named = [0, 1].map(|design| all.iter().filter(|one| one.needed[design].is_some()).count());
+    println!("of {} laboratories the advice decides {}, even shots {}", all.len(), named[0], named[1]);
+    all.iter().for_each(|one| println!("| {} | {:?} | {:?} |", one.name, one.needed[0], one.needed[1]));
+    assert!(named[0] >= named[1], "NEARWALL_TEST_SEED={seed}");
 }
 
 /// Writes every set to the folder `NEARWALL_PLANTED_OUT`: data, base model, column map, truth and fresh rows.

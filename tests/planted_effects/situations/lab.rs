@@ -243,7 +243,7 @@ impl Lab {
     }
 
     /// Measures an impact; `None` if it is captured and captures are absent.
-    fn measure(&self, x: Inputs, shared: [f64; 2], rng: &mut SetRng) -> Option<Row> {
+    pub fn measure(&self, x: Inputs, shared: [f64; 2], rng: &mut SetRng) -> Option<Row> {
         let truth = self.response(&x, [rng.unit(), rng.unit()]);
         let outcome = match self.outcomes {
             Outcomes::Classes { impacts, correlation } => {
