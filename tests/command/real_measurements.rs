@@ -179,7 +179,6 @@ macro_rules! sets {
 }
 
 sets! {
-    #[should_panic(expected = "nothing depends on v_n or v_t")] // five averages without errors: docs/real-measurements.md
     beads_on_bead_packing: "beads-on-bead-packing",
     golf_ball_averages: "golf-ball-averages",
     golf_ball_bounces: "golf-ball-bounces",
