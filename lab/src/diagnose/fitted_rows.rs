@@ -2,7 +2,8 @@
 //!
 //! The table `[fitted]` has a digest of each: the first 40 bits of the key ([`nearwall::key`]) of the
 //! row's numbers, inputs as far as stated. Where two rows of the data have the same numbers, as with
-//! nominal inputs and captures, the digests are those of the numbers and the line. At most 10,000
+//! nominal inputs and captures, the digests are those of the numbers and the line, counted from the
+//! first row: a frame has no comments above it. At most 10,000
 //! rows fit a model; a row that did not fit it is taken for one of them with a probability of 1e-8.
 
 use std::collections::BTreeSet;
@@ -43,9 +44,10 @@ impl FittedRows {
     pub fn add_to(text: &str, data: &Measurements, rows: &[usize]) -> Result<String, TomlError> {
         let plain: BTreeSet<String> = data.rows.iter().map(|row| digest(row, None)).collect();
         let differ = plain.len() == data.rows.len();
+        let first = first_line(data);
         let one = |&row: &usize| {
             let row = &data.rows[row];
-            digest(row, (!differ).then_some(row.line))
+            digest(row, (!differ).then_some(row.line - first))
         };
         let mut all = Self::stated(text).0;
         all.extend(rows.iter().map(one));
@@ -65,22 +67,27 @@ impl FittedRows {
         document.to_string()
     }
 
-    /// Whether a row is one of them.
-    pub fn contains(&self, row: &Measurement) -> bool {
-        !self.0.is_empty()
-            && [None, Some(row.line)].into_iter().any(|line| self.0.contains(&digest(row, line)))
+    /// Whether a row of a file, whose first row has this line, is one of them.
+    pub fn contains(&self, row: &Measurement, first: u64) -> bool {
+        let places = [None, row.line.checked_sub(first)];
+        !self.0.is_empty() && places.into_iter().any(|place| self.0.contains(&digest(row, place)))
     }
 }
 
-/// The digest of a row's numbers, and of its line.
-fn digest(row: &Measurement, line: Option<u64>) -> String {
+/// The line of the first row.
+pub(super) fn first_line(data: &Measurements) -> u64 {
+    data.rows.iter().map(|row| row.line).min().unwrap_or(0)
+}
+
+/// The digest of a row's numbers, and of its place.
+fn digest(row: &Measurement, place: Option<u64>) -> String {
     let stated = INPUTS.iter().zip(&row.stated).filter(|(_, stated)| **stated);
     let reading = |one: Option<Reading>| one.map_or(ABSENT, |reading| reading.value);
     let limit = |one: Option<Limit>| one.map_or(ABSENT, |limit| limit.reading.value);
     let mut numbers: Vec<f64> = stated.map(|(input, _)| (input.value)(&row.impact)).collect();
     numbers.extend([reading(row.e_n), reading(row.e_t), limit(row.limits[0]), limit(row.limits[1])]);
     numbers.extend([row.captured.unwrap_or(ABSENT), row.impacts]);
-    numbers.extend(line.map(|line| line as f64));
+    numbers.extend(place.map(|place| place as f64));
     let numbers: Vec<f64> =
         numbers.into_iter().map(|one| if one.is_finite() { one } else { ABSENT }).collect();
     format!("{:010x}", key_of_values(numbers.into_iter()).unwrap_or_default() >> LEFT_OUT)
@@ -110,10 +117,10 @@ mod tests {
             let data = read(&format!("v_n,outcome\n{rows}"));
             let text = FittedRows::add_to(MODEL, &data, &[1, 2]).unwrap();
             let fitted = FittedRows::stated(&text);
-            let known: Vec<bool> = data.rows.iter().map(|row| fitted.contains(row)).collect();
+            let known: Vec<bool> = data.rows.iter().map(|row| fitted.contains(row, 2)).collect();
             assert_eq!(known, [false, true, true]);
             let moved = read(&format!("v_n,outcome\n5,stick\n{rows}"));
-            assert_eq!(fitted.contains(&moved.rows[3]), known_elsewhere, "{text}");
+            assert_eq!(fitted.contains(&moved.rows[3], 2), known_elsewhere, "{text}");
             let more = FittedRows::stated(&FittedRows::add_to(&text, &moved, &[0]).unwrap());
             assert_eq!(more.0.len(), 3);
         }

@@ -17,7 +17,7 @@ use std::io::Read;
 
 use super::constants::LEAST_ROWS;
 use super::fault;
-use super::fitted_rows::FittedRows;
+use super::fitted_rows::{FittedRows, first_line};
 use crate::dataset::{ColumnMap, DatasetError, MOST_ROWS, Measurement, Measurements, WallChoice};
 use bootstrap::Bootstrap;
 use groups::RowGroups;
@@ -160,9 +160,10 @@ pub fn compare(candidates: &[ComparedModel<'_>], seed: u64) -> Result<Comparison
         scored.map(|(candidate, data)| ScoredRows::new(candidate.model, &data.rows, &folds)).collect();
     let totals: Vec<Totals> = scored.iter().map(|rows| Totals::new(rows, &groups)).collect();
     let bootstrap = Bootstrap::new(&totals, groups.count, seed);
-    let rows = candidates.iter().zip(&common).map(|(candidate, data)| ModelRows {
-        fitted: data.rows.iter().filter(|row| candidate.fitted.contains(row)).count(),
-        ..candidate.rows.clone()
+    let rows = candidates.iter().zip(&common).map(|(candidate, data)| {
+        let first = first_line(&candidate.data);
+        let fitted = data.rows.iter().filter(|row| candidate.fitted.contains(row, first)).count();
+        ModelRows { fitted, ..candidate.rows.clone() }
     });
     let rows = rows.collect();
     let is_selection = candidates.iter().any(|candidate| candidate.data.unselected.rows > 0);
