@@ -282,7 +282,7 @@ def errors():
     assert "has shape (1, 2)" in refused(lambda: nearwall.predict({"v_n": [[1.0, 2.0]]}, model_file), ValueError)
     assert "not builtins.list" in refused(lambda: nearwall.predict([1.0], model_file), TypeError)
     assert "between 0 and 0.5" in refused(lambda: nearwall.diagnose(data, model, level=0.7), ValueError)
-    assert "5 to 2 is no range" in refused(lambda: nearwall.diagnose(data, model, reach={"v_n": (5, 2)}), ValueError)
+    assert "5.0 to 2.0 is no range" in refused(lambda: nearwall.diagnose(data, model, reach={"v_n": (5, 2)}), ValueError)
     assert "cannot vary `speed`" in refused(lambda: nearwall.diagnose(data, model, reach={"speed": (2, 5)}))
     assert "positive number of kelvin" in refused(lambda: nearwall.materials(temperature=float("nan")))
     assert "is no text; save it as CSV" in refused(lambda: nearwall.predict("broken.csv", model_file))
