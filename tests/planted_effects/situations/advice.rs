@@ -1,7 +1,7 @@
 //! Following the advice on what to measure next names the planted law with fewer shots than even shots.
 //!
 //! Both laboratories begin with the same few shots from the middle of their ranges, which leave the law
-//! open. In every round they then take the same number of shots: one at the two values of the input
+//! open. In every round they then take the same number of shots: one at the two values of the inputs
 //! that the diagnosis advises, everything else in the middle, the other spread over all ranges. A
 //! laboratory stops when the diagnosis names the planted law, and it alone.
 
@@ -128,11 +128,12 @@ impl Start {
         let mut rng = SetRng::new(seed, &format!("{}-{design:?}", self.name));
         let (mut rows, mut said) = (self.rows.clone(), said.clone());
         for round in 1..=ROUNDS {
-            let advised = (design == Design::Advice).then(|| advice(&said)).flatten();
+            let advised = if design == Design::Advice { advice(&said) } else { vec![] };
             let until = rows.len() + SHOTS;
             while rows.len() < until {
                 let mut x = self.lab.campaign.inputs(&mut rng);
-                if let Some((input, ends)) = &advised {
+                if !advised.is_empty() {
+                    let (input, ends) = &advised[rows.len() / 2 % advised.len()];
                     x = with(middle(&self.rows), input, ends[rows.len() % 2]);
                 }
                 rows.extend(self.lab.measure(x, [0.0; 2], &mut rng));
@@ -150,11 +151,15 @@ fn read(folder: &Path) -> Option<Value> {
     serde_json::from_str(&std::fs::read_to_string(folder.join("out/diagnosis.json")).ok()?).ok()
 }
 
-/// The input to vary and its two values.
-fn advice(said: &Value) -> Option<(String, [f64; 2])> {
-    let first = [&said["measure_next"][0], &said["findings"][0]["measure_next"][0]];
-    let one = first.into_iter().find(|one| one.is_object())?;
-    Some((one["vary"].as_str()?.to_owned(), [one["range"][0].as_f64()?, one["range"][1].as_f64()?]))
+/// The inputs to vary and the two values of each.
+fn advice(said: &Value) -> Vec<(String, [f64; 2])> {
+    let all = [&said["measure_next"], &said["findings"][0]["measure_next"]];
+    let all = all.into_iter().flat_map(|list| list.as_array().into_iter().flatten());
+    let one = |one: &Value| {
+        let ends = [one["range"][0].as_f64()?, one["range"][1].as_f64()?];
+        Some((one["vary"].as_str()?.to_owned(), ends))
+    };
+    all.filter_map(one).collect()
 }
 
 /// The middle of some shots.
