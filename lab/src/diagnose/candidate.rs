@@ -34,6 +34,9 @@ pub(super) enum Class {
     Noise,
 }
 
+/// Prior odds of each addition after the first, over those of the one before [1].
+pub(super) const FURTHER: f64 = 0.3;
+
 impl Class {
     /// Of a curve over these columns.
     fn of_columns(columns: impl Iterator<Item = usize>, data: &DataSplit) -> Self {
@@ -44,8 +47,13 @@ impl Class {
         }
     }
 
+    /// Logarithm of the prior probability of one addition of so many of this class, over that of none [nats].
+    pub fn log_prior(self, candidates: usize) -> f64 {
+        (self.prior() / candidates.max(1) as f64).ln()
+    }
+
     /// Prior probability that data need an addition of this class, over that they do not [1].
-    pub fn prior(self) -> f64 {
+    fn prior(self) -> f64 {
         match self {
             Self::Law => 1.0,
             Self::Noise => 0.5,

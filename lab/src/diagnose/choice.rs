@@ -26,7 +26,7 @@ pub(super) struct Task<'a> {
     /// The columns that group the rows, and groups that no name tells.
     pub groups: &'a [GroupColumn],
     pub effort: Effort,
-    /// Called after each candidate.
+    /// Told each candidate.
     pub progress: &'a (dyn Fn(&str) + Sync),
 }
 

@@ -29,6 +29,6 @@ pub(super) struct Effort {
 /// Of the choice that is told, and of those that only measure the gain.
 pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3 };
 pub(super) const QUICK: Effort = Effort { expanded: 2, refitted: 1 };
-/// The same for rigs, whose candidates are looked at in tables: an expansion costs a table, and a fit little.
+/// The same for rigs, whose candidates are looked at in one table: only fits cost predictions.
 pub(super) const THOROUGH_RIG: Effort = Effort { expanded: 4, refitted: 12 };
 pub(super) const QUICK_RIG: Effort = Effort { expanded: 3, refitted: 0 };

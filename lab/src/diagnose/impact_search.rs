@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::candidate::{Addition, Candidate, Class, ScoredCandidate};
+use super::candidate::{Addition, Candidate, Class, FURTHER, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
 use super::data_split::DataSplit;
@@ -17,9 +17,6 @@ use super::ground::Ground;
 use super::hypothesis::Hypothesis;
 use super::likelihood::SMALLEST_SCATTER;
 use super::observable::Observable;
-
-/// Prior odds of each addition after the first, over those of the one before [1].
-pub(super) const FURTHER: f64 = 0.3;
 
 /// Effort of an expansion beside an effect with random draws, in that of the base model.
 const RANDOM_DRAWS: usize = 5;
@@ -76,7 +73,7 @@ impl<'a> ImpactSearch<'a> {
     pub fn starts(&self) -> Vec<ImpactExplanation<'a>> {
         let start = |(place, ground): (usize, &'a Ground)| {
             let hypothesis = Hypothesis::base(&ground.data);
-            let log_prior = if ground.is_rival() { surprise(Class::Rival, self.readings) } else { 0.0 };
+            let log_prior = if ground.is_rival() { Class::Rival.log_prior(self.readings) } else { 0.0 };
             let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
             let scores = ground.scores(&hypothesis);
             let freedom = ground.freedom + self.beyond_stated(&hypothesis);
@@ -190,7 +187,7 @@ impl<'a> ImpactSearch<'a> {
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
             new.scores = moved(&of.scores, &before, &ground.scores(&new.fitted.hypothesis));
             new.freedom += ground.freedom;
-            new.log_prior += surprise(Class::Noise, count);
+            new.log_prior += Class::Noise.log_prior(count);
             new
         };
         noise.map(on).collect()
@@ -219,7 +216,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         list.iter().for_each(|one| *counts.entry(one.class(hypothesis.data)).or_default() += 1);
         let prior = |class: Class, joined: usize| {
             let further = (of.fitted.found.len() + joined) as f64 * FURTHER.ln();
-            surprise(class, counts.get(&class).copied().unwrap_or(1)) + further
+            class.log_prior(counts.get(&class).copied().unwrap_or(1)) + further
         };
         let scored = round.score(&list, self.progress);
         let is_ceiling = |one: &Candidate| matches!(one, Candidate::Captures(CaptureConstant::Ceiling));
@@ -290,10 +287,4 @@ fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit
         }
         Addition::Captures { constant, .. } => hypothesis.captures = hypothesis.captures.without(*constant),
     }
-}
-
-/// Logarithm of the prior probability of one addition of a class with so many candidates, over that
-/// of none [nats].
-pub(super) fn surprise(class: Class, candidates: usize) -> f64 {
-    (class.prior() / candidates.max(1) as f64).ln()
 }

@@ -87,7 +87,7 @@ impl RigAddition {
     /// Whether it is an effect with a parameter at the bound of its range: no law then, whatever it gains.
     pub fn at_bound(&self) -> bool {
         let is_effect = matches!(self.kind, Kind::Part(Part::Effect(_)));
-        is_effect && self.axes.iter().zip(&self.at).any(|(axis, at)| axis.is_at_end(*at))
+        is_effect && self.fitted().is_some_and(|part| part.at_bound())
     }
 
     /// The inputs that it depends on.
@@ -200,6 +200,11 @@ pub(super) fn extended_text(
         addition.write(&mut document, &mut added, valid);
     }
     Ok(with_effects(document, added))
+}
+
+/// What tells additions from others, in their order.
+pub(super) fn keys(additions: &[RigAddition]) -> Vec<String> {
+    additions.iter().map(RigAddition::key).collect()
 }
 
 /// A model with all of these.

@@ -3,7 +3,7 @@
 use super::super::constants::Effort;
 use super::super::explanation::{Explained as _, explore};
 use super::super::explanations::{Explanations, Told};
-use super::addition::RigAddition;
+use super::addition::{RigAddition, keys};
 use super::rig_search::{RigExplanation, RigSearch};
 use super::significance::NullGains;
 use super::study::RigStudy;
@@ -56,8 +56,7 @@ impl RigChoice {
     /// Sets what is named, with the gains and p-values of these additions.
     fn judge(&mut self, study: &RigStudy<'_>, named: &[RigAddition], weights: &[f64]) {
         let null = NullGains::new(&study.table, &study.data, weights, study.seed);
-        let keys: Vec<String> = named.iter().map(RigAddition::key).collect();
-        self.structure = [&[][..], &keys].map(|keys| null.p_value(self.largest_beside(keys)));
+        self.structure = [&[][..], &keys(named)].map(|keys| null.p_value(self.largest_beside(keys)));
         let all = study.score(named, weights);
         for place in 0..named.len() {
             let mut rest = named.to_vec();

@@ -1,19 +1,18 @@
 //! The gain on experiments that no choice and no fit has seen.
 //!
 //! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the
-//! others, the model file is written and read again, and predicts the part. The candidates of a
-//! round were computed once for all parts; they do not depend on the data.
+//! others, the model file is written and read again, and predicts the part. The
+//! predictions of the candidates were computed once for all parts; they do not depend on the data.
 
 use super::super::constants::QUICK_RIG;
 use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
-use super::addition::{Kind, RigAddition, moved};
+use super::addition::{Kind, RigAddition, keys, moved};
 use super::choice::RigChoice;
 use super::noise::FittedScatter;
 use super::posterior::Posterior;
-use super::prediction_table::predict;
 use super::study::RigStudy;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::model::Model;
@@ -49,8 +48,8 @@ impl HeldOutExperiments {
         }
         let order = shuffled(count, study.seed);
         let parts = EXPERIMENT_PARTS.min(count);
-        let base = predict(study.forward, &[])?;
-        let mut predicted: Vec<[PredictedReading; 2]> = base.iter().map(|one| [*one, *one]).collect();
+        let mut predicted: Vec<[PredictedReading; 2]> =
+            study.table.base.iter().map(|one| [*one, *one]).collect();
         for part in 0..parts {
             let mut weights = vec![1.0; count];
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
@@ -143,7 +142,6 @@ fn fitted_again(
     weights: &[f64],
 ) -> Vec<RigAddition> {
     let additions = whole.again(study, QUICK_RIG, weights);
-    let keys = |additions: &[RigAddition]| additions.iter().map(RigAddition::key).collect::<Vec<_>>();
     let same = keys(&additions) == keys(&whole.additions());
     match posterior.best(study, weights).filter(|_| same) {
         Some(at) => moved(&additions, &at),

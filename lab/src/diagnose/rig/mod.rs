@@ -3,8 +3,8 @@
 //! Data flow: readings → predictions of every candidate at places of its range (`prediction_table`)
 //! → search among explanations and their probabilities (`rig_search`, `choice`; both engines share
 //! `explanation` and `explanations`) → draws of the parameters (`posterior`) → gain on held-out
-//! experiments (`gain`) → record with the model file. The predictions come from a [`Forward`]: particles followed anew or recorded impacts
-//! decided again. Candidates are those of the diagnosis of impacts. Method and limits:
+//! experiments (`gain`) → record with the model file. The predictions come from a [`Forward`]:
+//! particles followed anew or recorded impacts decided again. Candidates are those of the diagnosis of impacts. Method and limits:
 //! `docs/rig-diagnosis.md`.
 
 mod addition;
@@ -93,8 +93,8 @@ pub fn diagnose_rig(
         let usable = data.read - data.rejected.len();
         return Err(RigError::TooFew { usable, read: data.read, reasons });
     }
-    let is_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
-    if let Some(reach) = options.reach.iter().find(is_number) {
+    let is_no_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
+    if let Some(reach) = options.reach.iter().find(is_no_number) {
         return Err(RigError::NoNumber(reach.name.clone()));
     }
     let study = RigStudy::new(forward, options.seed, progress)?;

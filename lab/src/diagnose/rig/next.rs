@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use super::super::explanations::FoundExplanation;
 use super::super::reach::Reach;
-use super::addition::{RigAddition, moved};
+use super::addition::{RigAddition, keys, moved};
 use super::choice::RigChoice;
 use super::noise::PreparedReadings;
 use super::posterior::Posterior;
@@ -426,10 +426,9 @@ impl Ensemble {
 /// The explanations that hold 95 %, two at least, with their probabilities.
 fn causes(study: &RigStudy<'_>, choice: &RigChoice, posterior: &Posterior) -> Vec<Cause> {
     let additions = choice.additions();
-    let keys = |all: &[RigAddition]| all.iter().map(RigAddition::key).collect::<Vec<_>>();
+    let drawn = posterior.draws(STATES[0] - 1, study.seed);
     let surviving = choice.explanations.listed().len().clamp(2, MOST_SURVIVING);
     let cause = |one: &FoundExplanation<RigAddition>| {
-        let drawn = posterior.draws(STATES[0] - 1, study.seed);
         let own = &one.told.additions;
         let states = match !drawn.is_empty() && keys(own) == keys(&additions) {
             true => std::iter::once(additions.clone())

@@ -113,14 +113,14 @@ impl RigFindings<'_> {
     pub fn record(self, file: &RigMeasurements, options: &Options) -> Result<RigDiagnosis, PredictionError> {
         let Self { study, choice, held_out, .. } = &self;
         let all = vec![1.0; study.data.experiments];
-        let base = predict(study.forward, &[])?;
+        let base = &study.table.base;
         let model = Model::from_toml("extended.toml", &self.text).map_err(SettingError::from)?;
         let extended = predict_file(study, &model, &choice.additions())?;
         let parameters = choice.named.iter().map(|one| one.addition.axes.len()).sum();
         let fit = Fit {
-            base: self.fit_test(&base, 0, choice.structure[0]),
+            base: self.fit_test(base, 0, choice.structure[0]),
             extended: self.fit_test(&extended, parameters, choice.structure[1]),
-            largest: self.largest(&base),
+            largest: self.largest(base),
         };
         let (findings, calibration) = self.found()?;
         let gains: Vec<_> = held_out.iter().flat_map(|held_out| held_out.gains(study)).collect();
@@ -162,8 +162,8 @@ impl RigFindings<'_> {
         let scatter = study.data.scatter(&extended, &all);
         Ok(RigDiagnosis {
             diagnosis,
-            readings: self.rows(&base, &extended, &scatter),
-            errors: self.errors(&base, &extended),
+            readings: self.rows(base, &extended, &scatter),
+            errors: self.errors(base, &extended),
             next_table: table(&self.next),
             notes: [file.notes.clone(), study.data.scatter_notes(&scatter)].concat(),
             next: self.next,

@@ -3,12 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use super::super::candidate::Class;
+use super::super::candidate::{Class, FURTHER};
 use super::super::explanation::{Evidence, Explained, Explanation, WINDOW};
-use super::super::impact_search::{FURTHER, surprise};
 use super::super::part::Part;
-use super::addition::{Kind, RigAddition};
-use super::noise::{Noise, PreparedReadings};
+use super::addition::{Kind, RigAddition, keys};
+use super::noise::{Noise, PreparedReadings, WeightedValues};
 use super::prediction_table::{TabledCandidate, TabledPlace, predict};
 use super::study::RigStudy;
 
@@ -71,7 +70,7 @@ impl<'a> RigSearch<'a> {
     }
 
     fn of(&self, additions: Vec<RigAddition>, prepared: Arc<PreparedReadings>) -> RigExplanation {
-        let mut keys: Vec<String> = additions.iter().map(RigAddition::key).collect();
+        let mut keys = keys(&additions);
         keys.sort_unstable();
         let freedom = additions.iter().map(|one| one.axes.len() as f64).sum();
         let log_prior = additions.iter().enumerate().map(|(place, one)| self.prior(place, one)).sum();
@@ -85,7 +84,7 @@ impl<'a> RigSearch<'a> {
         let over = one.variables();
         let idle = over.iter().filter(|input| self.study.unchanged.contains(&input.as_str())).count();
         let count = self.counts.get(&class).copied().unwrap_or(1);
-        surprise(class, count) + idle as f64 * UNCHANGED.ln() + others as f64 * FURTHER.ln()
+        class.log_prior(count) + idle as f64 * UNCHANGED.ln() + others as f64 * FURTHER.ln()
     }
 
     /// The base model.
@@ -94,24 +93,25 @@ impl<'a> RigSearch<'a> {
     }
 
     /// A candidate at its best place, of the table and of earlier fits.
-    fn looked_at(&self, of: &RigExplanation, candidate: &TabledCandidate) -> RigExplanation {
-        let (study, weights) = (self.study, self.weights);
-        let base = &study.table.base_prepared;
-        let values = study.data.weighted(study.data.values(), weights);
+    fn looked_at(
+        &self,
+        of: &RigExplanation,
+        candidate: &TabledCandidate,
+        values: &WeightedValues<'_>,
+    ) -> RigExplanation {
+        let base = &self.study.table.base_prepared;
+        let with = |at: &[f64]| [&of.fitted.additions[..], &[candidate.addition.moved(at)]].concat();
+        let score = |prepared: &PreparedReadings| self.study.data.score_weighted(prepared, values);
         let place = |place: &TabledPlace| {
             let prepared = of.fitted.prepared.shifted(base, &place.prepared);
-            let score = study.data.score_weighted(&prepared, &values);
-            let additions = [&of.fitted.additions[..], &[candidate.addition.moved(&place.at)]].concat();
-            (score, FittedRig { additions, prepared: Arc::new(prepared) })
+            let fitted = FittedRig { additions: with(&place.at), prepared: Arc::new(prepared) };
+            (score(&fitted.prepared), fitted)
         };
-        let places = candidate.places.iter().map(place);
-        let keys = |fitted: &FittedRig| fitted.additions.iter().map(RigAddition::key).collect::<Vec<_>>();
-        let mut own = keys(&of.fitted);
+        let mut own = keys(&of.fitted.additions);
         own.push(candidate.addition.key());
-        let known = self.known.iter().filter(|known| keys(&known.fitted) == own);
-        let known = known
-            .map(|known| (study.data.score_weighted(&known.fitted.prepared, &values), known.fitted.clone()));
-        let best = places.chain(known).max_by(|a, b| a.0.total_cmp(&b.0));
+        let known = self.known.iter().filter(|known| keys(&known.fitted.additions) == own);
+        let known = known.map(|known| (score(&known.fitted.prepared), known.fitted.clone()));
+        let best = candidate.places.iter().map(place).chain(known).max_by(|a, b| a.0.total_cmp(&b.0));
         best.map_or_else(|| of.clone(), |(_, FittedRig { additions, prepared })| self.of(additions, prepared))
     }
 
@@ -133,7 +133,8 @@ impl<'a> RigSearch<'a> {
     /// All candidates beside an explanation that are not part of it, the most probable first.
     fn beside(&self, of: &RigExplanation) -> Vec<RigExplanation> {
         let others = self.study.table.candidates.iter().filter(|one| !of.keys.contains(&one.addition.key()));
-        let mut all: Vec<RigExplanation> = others.map(|one| self.looked_at(of, one)).collect();
+        let values = self.study.data.weighted(self.study.data.values(), self.weights);
+        let mut all: Vec<RigExplanation> = others.map(|one| self.looked_at(of, one, &values)).collect();
         all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
         all
     }
@@ -155,7 +156,7 @@ impl Explained for RigSearch<'_> {
             return Vec::new();
         }
         let mut all = self.beside(of);
-        // At first look a fit is at most this much worse than it can be.
+        // What is less probable at first look by more is not worth a fit.
         let least = self.evidence.of(of) - WINDOW;
         let promising = all.iter().take_while(|new| self.evidence.of(new) > least).count();
         let rest = all.split_off(all.len().min(promising.max(LEAST_FITTED).min(self.refitted)));
