@@ -6,6 +6,7 @@
 //! evaluated.
 
 use super::Model;
+use super::general_wall::Unwatched;
 use crate::effect::stream;
 use crate::impact::{Impact, ImpactError, Outcome, Regime};
 use crate::rng::ImpactRng;
@@ -35,7 +36,8 @@ const STREAM_STEPS: [usize; 5] = [1, 3, 5, 7, 9];
 #[derive(Debug, Clone)]
 pub struct DrawLattice {
     streams: Vec<u64>,
-    count: usize,
+    /// The place of each stream in each draw, in 0 to 1, before a rotation.
+    places: Vec<[f64; STREAM_STEPS.len()]>,
 }
 
 /// A [`DrawLattice`] with a rotation of its own: even by itself and together with others.
@@ -54,12 +56,13 @@ impl DrawLattice {
             streams.push(stream::COVER);
         }
         let count = if streams.is_empty() { 1 } else { count.max(1) };
-        Self { streams, count }
+        let of_draw = |draw| STREAM_STEPS.map(|step| (draw * step % count) as f64 / count as f64);
+        Self { streams, places: (0..count).map(of_draw).collect() }
     }
 
     /// Number of draws.
     pub fn count(&self) -> usize {
-        self.count
+        self.places.len()
     }
 
     /// The lattice with the rotation of a key.
@@ -86,9 +89,8 @@ impl RotatedLattice<'_> {
 
     /// The place of a draw, in 0 to 1.
     fn place(&self, draw: usize, stream: u64) -> f64 {
-        let (which, count) = (stream as usize % STREAM_STEPS.len(), self.lattice.count);
-        let place = ((draw * STREAM_STEPS[which]) % count) as f64 / count as f64;
-        (place + self.rotations[which]).fract()
+        let which = stream as usize % STREAM_STEPS.len();
+        (self.lattice.places[draw][which] + self.rotations[which]).fract()
     }
 }
 
@@ -152,7 +154,7 @@ impl Model {
             for (place, share) in places.into_iter().filter(|(_, share)| *share > 0.0) {
                 let uniform =
                     |wanted| if wanted == stream::COVER { place } else { rotated.uniform(draw, wanted) };
-                let outcome = self.resolve_place_with(wall, impact, uniform)?;
+                let outcome = self.at_place_met(wall, impact, uniform, &mut Unwatched)?;
                 if place == likelier {
                     regimes[outcome.regime as usize] += rotated.weight(draw);
                 }

@@ -26,6 +26,8 @@ const BAND: [&str; 2] = ["stickiness at 5 %", "stickiness at 95 %"];
 pub(super) trait Watcher<'m> {
     /// Whether it shows what it receives: only then are bands computed.
     const SHOWS: bool = false;
+    /// Whether it is told what is used outside of its range; else the outcome does not say so either.
+    const JUDGES_RANGE: bool = true;
 
     /// Receives a quantity after a term.
     fn trace(&mut self, _term: &'static str, _quantity: &'static str, _value: f64) {}
@@ -38,6 +40,13 @@ pub(super) trait Watcher<'m> {
 pub(super) struct Unwatched;
 
 impl Watcher<'_> for Unwatched {}
+
+/// Watches nothing, not even ranges: for means over many draws.
+struct RangeIgnored;
+
+impl Watcher<'_> for RangeIgnored {
+    const JUDGES_RANGE: bool = false;
+}
 
 /// The share of the wall that is not met: its ranges count, its terms are not shown.
 struct NotMet<'w, W>(&'w mut W);
@@ -100,7 +109,7 @@ impl Model {
 
     /// Decides an impact with the caller's random numbers; the probability of capture is that of
     /// the place met, covered or bare. For averages over the random draws in which a rebound counts
-    /// where it happens.
+    /// where it happens. Ranges are not judged: `outside_range` is false.
     ///
     /// # Errors
     /// As [`Model::resolve`].
@@ -110,10 +119,21 @@ impl Model {
         impact: &Impact,
         uniform: impl Fn(u64) -> f64,
     ) -> Result<Outcome, ImpactError> {
+        self.at_place_met(wall, impact, uniform, &mut RangeIgnored)
+    }
+
+    /// The same with a watcher.
+    pub(super) fn at_place_met<'m>(
+        &'m self,
+        wall: usize,
+        impact: &Impact,
+        uniform: impl Fn(u64) -> f64,
+        watcher: &mut impl Watcher<'m>,
+    ) -> Result<Outcome, ImpactError> {
         let mut arriving = *impact;
         let wall = self.at_wall(wall, &mut arriving)?;
         let met = place_met(wall, &arriving, &uniform);
-        self.evaluate_place(wall, &arriving, met, &uniform, &mut Unwatched)
+        self.evaluate_place(wall, &arriving, met, &uniform, watcher)
     }
 
     /// Whether a draw decides if the impact meets the covered or the bare share of the wall.
@@ -321,6 +341,9 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
     type Fault = ImpactError;
 
     fn outside_range(&mut self, arriving: &Impact) -> bool {
+        if !W::JUDGES_RANGE {
+            return false;
+        }
         let Self { model, wall, place, watcher, .. } = self;
         let mut any = false;
         model.beyond_before(wall, *place, arriving, &mut |beyond| {
@@ -380,7 +403,7 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
             return NormalRebound { restitution: e_n, held: false };
         }
         let law = self.model.normal;
-        self.left_range = !law.holds_for(contact, impact);
+        self.left_range = W::JUDGES_RANGE && !law.holds_for(contact, impact);
         let e_n = law.rebound(contact, impact);
         self.watcher.trace(law.name(), "e_n", e_n.unwrap_or(0.0));
         NormalRebound::of(e_n)
@@ -470,6 +493,10 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
         let probability;
         (probability, self.left_range) =
             place.capture_probability(model.capture.combination, stickiness, law_left);
+        if !W::JUDGES_RANGE {
+            self.left_range = false;
+            return probability;
+        }
         let [law, dry_contact] = place.ranges_left(stickiness, probability, law_left);
         if law {
             beyond::of_normal_law(model.normal, &self.contact, impact, &mut found);
