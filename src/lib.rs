@@ -64,6 +64,7 @@ pub mod capture;
 pub mod deposit;
 pub mod effect;
 pub mod erosion;
+pub mod group;
 pub mod impact;
 pub mod input;
 pub mod key;

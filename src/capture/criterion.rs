@@ -283,6 +283,17 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         f64::INFINITY
     }
 
+    /// Viscosity [Pa s] of the liquid in flight at a temperature [K]; `None` where the criterion has none or does
+    /// not know it.
+    fn liquid_viscosity(&self, _temperature: f64) -> Option<f64> {
+        None
+    }
+
+    /// Viscosity [Pa s] at and below which this impact sticks; `None` for a criterion without one.
+    fn reference_viscosity(&self, _impact: &Impact) -> Option<f64> {
+        None
+    }
+
     /// Normal restitution [1] of a droplet that bounces whole from a wall of this material; `None`
     /// for one that does not, and for what is not a droplet.
     ///

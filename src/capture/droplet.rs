@@ -222,6 +222,10 @@ impl StickinessCriterion for Droplet {
         if self.is_droplet(temperature) { self.melt.film_viscosity(temperature) } else { f64::INFINITY }
     }
 
+    fn liquid_viscosity(&self, temperature: f64) -> Option<f64> {
+        self.melt.viscosity(temperature).ok()
+    }
+
     fn droplet_rebound(&self, impact: &Impact, wall: &Material) -> Result<Option<f64>, ImpactError> {
         let Some(contact_angle) = self.criterion.contact_angle else { return Ok(None) };
         let Some(melt) = self.molten(impact)? else { return Ok(None) };

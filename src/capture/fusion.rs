@@ -126,6 +126,10 @@ impl StickinessCriterion for FusionStickiness {
         melt.unwrap_or(f64::INFINITY)
     }
 
+    fn liquid_viscosity(&self, temperature: f64) -> Option<f64> {
+        self.melt.as_ref()?.viscosity(temperature).ok()
+    }
+
     fn stiff_below(&self) -> Option<f64> {
         Some(self.temperatures.flow)
     }

@@ -237,6 +237,14 @@ impl StickinessCriterion for MeltStickiness {
         self.viscosity(temperature).unwrap_or(f64::INFINITY)
     }
 
+    fn liquid_viscosity(&self, temperature: f64) -> Option<f64> {
+        self.viscosity(temperature).ok()
+    }
+
+    fn reference_viscosity(&self, impact: &Impact) -> Option<f64> {
+        Some(self.reference(impact))
+    }
+
     fn stiff_below(&self) -> Option<f64> {
         self.melt.stiff_below()
     }

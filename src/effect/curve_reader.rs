@@ -1,38 +1,51 @@
 //! Reads the `[[effects]]` table of a `fitted-curve` or a `level-shift`.
 
-use super::fitted_curve::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, LARGEST_VALUE};
-use super::{EffectInfo, Parameter};
-use crate::impact::{ExtraInput, INPUTS};
+use super::correction::LARGEST_VALUE;
+use super::{CurveAxis, CurveForm, CurveInput, CurveTarget, EffectInfo, FittedCurve, Parameter};
+use crate::group::Declared;
+use crate::impact::ExtraInput;
 use crate::input::{InputError, List, Section, unknown};
 
 /// Most inputs of a curve.
 const MOST_AXES: usize = 2;
 
-/// Reads a curve; `extra` are the inputs that the model file declares.
+/// Reads a curve; `declared` is what the model file declares.
 ///
 /// # Errors
 /// [`InputError::Fault`] naming the key and the remedy.
 pub(super) fn read(
     kind: &EffectInfo,
     section: &Section<'_>,
-    extra: &[ExtraInput],
+    declared: &Declared<'_>,
 ) -> Result<FittedCurve, InputError> {
-    let targets = CurveTarget::ALL.map(CurveTarget::name);
-    let word = section.choice("on", &targets)?;
-    let word = word.ok_or_else(|| section.missing("on", "\"e_n\", \"e_t\" or \"capture\""))?;
-    let on = CurveTarget::ALL.into_iter().find(|on| on.name() == word);
-    let on = on.unwrap_or(CurveTarget::NormalRestitution);
-    let factor =
-        section.choice("form", &CurveForm::ALL.map(CurveForm::name))?.is_some_and(|form| form == "factor");
+    let on = read_target(section)?;
+    let factor = section
+        .choice("form", &CurveForm::OF_CURVES.map(CurveForm::name))?
+        .is_some_and(|form| form == "factor");
     let form = if factor { CurveForm::Factor } else { CurveForm::Add };
     if let [value] = kind.parameters {
         return read_level(value, section, on, form);
     }
-    let axes = read_axes(section, extra)?;
+    let axes = read_axes(section, declared)?;
     let values = read_grid("values", section, &axes)?;
     let values = values.ok_or_else(|| section.missing("values", "a list with a number for each knot"))?;
     check_interval(section, &axes)?;
     Ok(FittedCurve { on, form, axes, values })
+}
+
+/// What a correction acts on.
+pub(super) fn read_target(section: &Section<'_>) -> Result<CurveTarget, InputError> {
+    let targets = CurveTarget::ALL.map(CurveTarget::name);
+    let word = section.choice("on", &targets)?;
+    let word = word.ok_or_else(|| section.missing("on", "\"e_n\", \"e_t\" or \"capture\""))?;
+    let on = CurveTarget::ALL.into_iter().find(|on| on.name() == word);
+    Ok(on.unwrap_or(CurveTarget::NormalRestitution))
+}
+
+/// The error for an unknown input or group of a correction.
+pub(super) fn unknown_input(name: &str, section: &Section<'_>, declared: &Declared<'_>) -> InputError {
+    let problem = unknown(name, "input", &CurveInput::names(declared));
+    section.fault("input", format!("{problem}; declare another one in [inputs.{name}]"))
 }
 
 fn read_level(
@@ -44,7 +57,7 @@ fn read_level(
     Ok(FittedCurve { on, form, axes: Vec::new(), values: vec![value.read(section)?] })
 }
 
-fn read_axes(section: &Section<'_>, extra: &[ExtraInput]) -> Result<Vec<CurveAxis>, InputError> {
+fn read_axes(section: &Section<'_>, declared: &Declared<'_>) -> Result<Vec<CurveAxis>, InputError> {
     let names = if section.is_list("input") {
         section.texts("input")?
     } else {
@@ -63,29 +76,25 @@ fn read_axes(section: &Section<'_>, extra: &[ExtraInput]) -> Result<Vec<CurveAxi
         };
         return Err(section.fault("knots", problem));
     }
-    names.iter().zip(&knots).map(|(name, knots)| read_axis(name, knots, section, extra)).collect()
+    names.iter().zip(&knots).map(|(name, knots)| read_axis(name, knots, section, declared)).collect()
 }
 
 fn read_axis(
     name: &str,
     knots: &List<'_, '_>,
     section: &Section<'_>,
-    extra: &[ExtraInput],
+    declared: &Declared<'_>,
 ) -> Result<CurveAxis, InputError> {
-    if let Some(place) = INPUTS.iter().position(|input| input.name == name) {
-        return Ok(CurveAxis { input: CurveInput::Input(place), knots: read_numbers(name, knots, section)? });
-    }
-    let declared = extra.iter().enumerate().find(|(_, input)| input.name == name);
-    let Some((place, input)) = declared else {
-        let known: Vec<&str> =
-            INPUTS.iter().map(|input| input.name).chain(extra.iter().map(|i| i.name.as_str())).collect();
-        let problem = unknown(name, "input", &known);
-        return Err(section.fault("input", format!("{problem}; declare another one in [inputs.{name}]")));
+    let input = CurveInput::named(name, declared).ok_or_else(|| unknown_input(name, section, declared))?;
+    let label = match input {
+        CurveInput::Label(place) => declared.inputs.get(place),
+        _ => None,
     };
-    if input.is_label() {
-        return Ok(CurveAxis { input: CurveInput::Label(place), knots: read_labels(input, knots, section)? });
-    }
-    Ok(CurveAxis { input: CurveInput::Extra(place), knots: read_numbers(name, knots, section)? })
+    let knots = match label {
+        Some(words) => read_labels(words, knots, section)?,
+        None => read_numbers(name, knots, section)?,
+    };
+    Ok(CurveAxis { input, knots })
 }
 
 /// Knots of a number: at least two, ascending.

@@ -1,26 +1,16 @@
 //! `fitted-curve` and `level-shift`: corrections that a fit found without a law for them.
 //!
-//! A curve gives a value `f` over one input: linear between its knots, constant beyond the first
-//! and the last. A surface does so over two inputs, bilinear. A level shift has the same `f` for
-//! every impact. After all laws and effects, in the order of the file, `e_n -> e_n + f` and `e_t ->
-//! e_t + f` (`add`), or `e_n -> e_n (1 + f)` and `e_t -> e_t (1 + f)` (`factor`); then `e_n` is at
-//! least
-//! 0. On capture, the factors `1 + f` of all terms are multiplied with the probability `p` [1], and then `f` of all
-//! others is added to its log odds: `b = 0.005 + 0.99 p`, `p -> clamp((logistic(logit(b) + f) - 0.005)/0.99, 0, 1)`.
-//! So 0 changes nothing, and 0 and 1 can be moved.
+//! A curve gives a value `f` over one input or group: linear between its knots, constant beyond the first
+//! and the last. A surface does so over two, bilinear. A level shift has the same `f` for
+//! every impact. How `f` acts stands in [`correction`](super::correction).
 //!
 //! `f` is a pure number [1]; knots have the unit of their input. No physics: the values hold for
 //! the data of the fit (`valid`). An input of words has a value for each word, and none between
-//! them; a word without a value, and a word that is not stated, leave the impact unchanged.
+//! them; a word without a value, and what is not stated or has no value, leave the impact unchanged.
 
-use super::{Effect, EffectInfo, Parameter, Search};
-use crate::impact::{ExtraInput, INPUTS, Impact};
-
-/// Largest value [1], either way.
-pub(super) const LARGEST_VALUE: f64 = 100.0;
-
-/// Distance that the probability of capture keeps from 0 and 1 while its log odds are shifted [1].
-const MARGIN: f64 = 0.005;
+use super::correction::LARGEST_VALUE;
+use super::{Correction, CurveForm, CurveInput, CurveTarget, Effect, EffectInfo, Parameter, Search};
+use crate::group::{Circumstances, Declared};
 
 const ABOUT_VALUE: &str = "correction of e_n, of e_t or of capture";
 
@@ -43,83 +33,6 @@ pub(super) const LEVEL_SHIFT: EffectInfo = EffectInfo {
     build: |values| Box::new(FittedCurve::level(values)),
 };
 
-/// What a curve corrects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveTarget {
-    /// `e_n`.
-    NormalRestitution,
-    /// `e_t`.
-    TangentialRestitution,
-    /// The probability of capture, or its log odds.
-    Capture,
-}
-
-impl CurveTarget {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Capture];
-
-    /// Its name in model files.
-    pub fn name(self) -> &'static str {
-        ["e_n", "e_t", "capture"][self as usize]
-    }
-}
-
-/// How a curve corrects.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveForm {
-    /// The value is added; on capture to the log odds.
-    Add,
-    /// One plus the value is a factor.
-    Factor,
-}
-
-impl CurveForm {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Add, Self::Factor];
-
-    /// Its name in model files.
-    pub fn name(self) -> &'static str {
-        ["add", "factor"][self as usize]
-    }
-
-    /// A number [1] with a correction [1].
-    pub fn apply(self, number: f64, value: f64) -> f64 {
-        match self {
-            Self::Add => number + value,
-            Self::Factor => number * (1.0 + value),
-        }
-    }
-}
-
-/// An input of a curve.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveInput {
-    /// One of [`INPUTS`], by place.
-    Input(usize),
-    /// A number that the model file declares, by place in [`Impact::extra`].
-    Extra(usize),
-    /// A word of a list that the model file declares, by place in [`Impact::extra`].
-    Label(usize),
-}
-
-impl CurveInput {
-    /// The value of an impact; NaN where it is not stated.
-    pub fn value(self, impact: &Impact) -> f64 {
-        match self {
-            Self::Input(place) => INPUTS.get(place).map_or(f64::NAN, |input| (input.value)(impact)),
-            Self::Extra(place) | Self::Label(place) => impact.extra.get(place).copied().unwrap_or(f64::NAN),
-        }
-    }
-
-    /// Its name; `extra` are the inputs that the model file declares.
-    pub fn name(self, extra: &[ExtraInput]) -> &str {
-        match self {
-            Self::Input(place) => INPUTS.get(place).map_or("?", |input| input.name),
-            Self::Extra(place) | Self::Label(place) => extra.get(place).map_or("?", |input| &input.name),
-        }
-    }
-}
-
 /// One input of a curve with its knots.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CurveAxis {
@@ -132,8 +45,8 @@ pub struct CurveAxis {
 impl CurveAxis {
     /// The knot at or below an impact, and the share [1] of the next knot; `None` where the axis
     /// has no value for the impact.
-    fn place(&self, impact: &Impact) -> Option<(usize, f64)> {
-        let value = self.input.value(impact);
+    fn place(&self, of: &dyn Circumstances) -> Option<(usize, f64)> {
+        let value = self.input.value(of);
         if let CurveInput::Label(_) = self.input {
             return Some((self.knots.iter().position(|knot| *knot == value)?, 0.0));
         }
@@ -169,50 +82,21 @@ impl FittedCurve {
         let (on, form) = (CurveTarget::NormalRestitution, CurveForm::Add);
         Self { on, form, axes: Vec::new(), values: values.to_vec() }
     }
-
-    /// The correction [1] of an impact, 0 where the curve has none.
-    pub fn value(&self, impact: &Impact) -> f64 {
-        interpolated(&self.axes, &self.values, impact).unwrap_or(0.0)
-    }
-
-    /// The curve in words; `extra` are the inputs that the model file declares.
-    pub(super) fn describe(&self, extra: &[ExtraInput]) -> String {
-        let on = match (self.on, self.form) {
-            (CurveTarget::Capture, CurveForm::Add) => "log odds of capture",
-            (CurveTarget::Capture, CurveForm::Factor) => "p_stick",
-            (other, _) => other.name(),
-        };
-        let operation = match self.form {
-            CurveForm::Add => format!("{on} + f"),
-            CurveForm::Factor => format!("{on} (1 + f)"),
-        };
-        let [low, high] =
-            self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
-                [low.min(*value), high.max(*value)]
-            });
-        if self.axes.is_empty() {
-            return format!("{operation}, f = {low}");
-        }
-        let axes: Vec<String> = self.axes.iter().map(|axis| axis.describe(extra)).collect();
-        format!("{operation}, f {low} to {high} over {}", axes.join(" and "))
-    }
 }
 
 impl CurveAxis {
-    fn describe(&self, extra: &[ExtraInput]) -> String {
-        let name = self.input.name(extra);
+    fn describe(&self, declared: &Declared<'_>) -> String {
+        let name = self.input.name(declared);
         let ends = self.knots.first().zip(self.knots.last());
         match (self.input, ends) {
-            (CurveInput::Input(_) | CurveInput::Extra(_), Some((low, high))) => {
-                format!("{name} ({} knots from {low} to {high})", self.knots.len())
-            }
-            _ => format!("{name} ({} labels)", self.knots.len()),
+            (CurveInput::Label(_), _) | (_, None) => format!("{name} ({} labels)", self.knots.len()),
+            (_, Some((low, high))) => format!("{name} ({} knots from {low} to {high})", self.knots.len()),
         }
     }
 }
 
 /// The value of a grid; `None` where an axis has no value for the impact.
-fn interpolated(axes: &[CurveAxis], values: &[f64], impact: &Impact) -> Option<f64> {
+fn interpolated(axes: &[CurveAxis], values: &[f64], of: &dyn Circumstances) -> Option<f64> {
     let Some((axis, rest)) = axes.split_first() else {
         let [value] = values else { return None };
         return Some(*value);
@@ -221,26 +105,45 @@ fn interpolated(axes: &[CurveAxis], values: &[f64], impact: &Impact) -> Option<f
         return None;
     }
     let block = values.len() / axis.knots.len();
-    let (knot, share) = axis.place(impact)?;
-    let at = |knot: usize| interpolated(rest, values.get(knot * block..(knot + 1) * block)?, impact);
+    let (knot, share) = axis.place(of)?;
+    let at = |knot: usize| interpolated(rest, values.get(knot * block..(knot + 1) * block)?, of);
     let low = at(knot)?;
     if share == 0.0 { Some(low) } else { Some((1.0 - share) * low + share * at(knot + 1)?) }
 }
 
-/// A probability of capture [1] with a factor, whose log odds are then shifted.
-pub(crate) fn shifted_probability(probability: f64, factor: f64, shift: f64) -> f64 {
-    let probability = (factor * probability).clamp(0.0, 1.0);
-    if shift == 0.0 {
-        return probability;
+impl Effect for FittedCurve {
+    fn correction(&self) -> Option<&dyn Correction> {
+        Some(self)
     }
-    let width = 1.0 - 2.0 * MARGIN;
-    let plain = MARGIN + width * probability;
-    let against = (1.0 - plain) / plain * (-shift).exp();
-    ((1.0 / (1.0 + against) - MARGIN) / width).clamp(0.0, 1.0)
 }
 
-impl Effect for FittedCurve {
-    fn correction(&self) -> Option<&FittedCurve> {
-        Some(self)
+impl Correction for FittedCurve {
+    fn on(&self) -> CurveTarget {
+        self.on
+    }
+
+    fn acts(&self) -> CurveForm {
+        self.form
+    }
+
+    fn value(&self, of: &dyn Circumstances) -> Option<f64> {
+        interpolated(&self.axes, &self.values, of)
+    }
+
+    fn inputs(&self) -> Vec<CurveInput> {
+        self.axes.iter().map(|axis| axis.input).collect()
+    }
+
+    fn describe(&self, declared: &Declared<'_>) -> String {
+        let operation = self.form.describe(self.on);
+        let [low, high] =
+            self.values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                [low.min(*value), high.max(*value)]
+            });
+        if self.axes.is_empty() {
+            return format!("{operation}, f = {low}");
+        }
+        let axes: Vec<String> = self.axes.iter().map(|axis| axis.describe(declared)).collect();
+        format!("{operation}, f {low} to {high} over {}", axes.join(" and "))
     }
 }

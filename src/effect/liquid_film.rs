@@ -60,6 +60,10 @@ impl Effect for LiquidFilm {
         true
     }
 
+    fn film_viscosity(&self) -> Option<f64> {
+        (self.viscosity > 0.0).then_some(self.viscosity)
+    }
+
     fn normal_restitution(
         &self,
         impact: &Impact,

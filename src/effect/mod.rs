@@ -5,11 +5,16 @@
 
 mod adhesion_energy;
 mod agglomerates;
+mod closed_form;
 mod conversion_decline;
 mod conversion_transition;
+mod correction;
+mod curve_input;
 mod curve_reader;
 mod dry_on_melt;
 mod fitted_curve;
+mod fitted_form;
+mod form_reader;
 mod gas_lift;
 mod liquid_film;
 mod melting_transition;
@@ -28,10 +33,15 @@ mod yield_ratio;
 
 use std::sync::Arc;
 
-pub(crate) use fitted_curve::shifted_probability;
-pub use fitted_curve::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve};
+pub use closed_form::{FORMS, FormInfo};
+pub(crate) use correction::shifted_probability;
+pub use correction::{Correction, CurveForm, CurveTarget};
+pub use curve_input::CurveInput;
+pub use fitted_curve::{CurveAxis, FittedCurve};
+pub use fitted_form::FittedForm;
 
-use crate::impact::{ExtraInput, INPUTS, Impact};
+use crate::group::Declared;
+use crate::impact::Impact;
 use crate::input::{InputError, Section, unknown};
 use crate::law::describe_values;
 pub use crate::law::{Parameter, QuantityKind, Search};
@@ -64,7 +74,8 @@ pub const EFFECTS: [&EffectInfo; 19] = [
 ];
 
 /// Corrections without a law, which a diagnosis fits where no law explains the data.
-pub const CURVES: [&EffectInfo; 2] = [&fitted_curve::FITTED_CURVE, &fitted_curve::LEVEL_SHIFT];
+pub const CURVES: [&EffectInfo; 3] =
+    [&fitted_curve::FITTED_CURVE, &fitted_form::INFO, &fitted_curve::LEVEL_SHIFT];
 
 /// Streams of [`ImpactRng`](crate::ImpactRng). Each random effect has its own, so that no two draw the same number.
 pub mod stream {
@@ -146,7 +157,12 @@ pub trait Effect: Send + Sync + std::fmt::Debug {
 
     /// What the effect corrects after all laws and effects, in the last step of an impact; `None`
     /// for an effect that is a law.
-    fn correction(&self) -> Option<&FittedCurve> {
+    fn correction(&self) -> Option<&dyn Correction> {
+        None
+    }
+
+    /// Viscosity [Pa s] of the liquid film on the wall, where the effect states one.
+    fn film_viscosity(&self) -> Option<f64> {
         None
     }
 
@@ -187,7 +203,7 @@ pub struct EffectInfo {
     pub id: &'static str,
     /// One line of description.
     pub about: &'static str,
-    /// Names of the [`INPUTS`] on which it depends.
+    /// Names of the [`INPUTS`](crate::impact::INPUTS) on which it depends.
     pub inputs: &'static [&'static str],
     /// Its own stream of random numbers; `None` for an effect without random draws.
     pub stream: Option<u64>,
@@ -205,6 +221,8 @@ pub struct Term {
     valid: Vec<(usize, [f64; 2])>,
     /// The same for the inputs that the model file declares, by place in [`Impact::extra`].
     valid_extra: Vec<(usize, [f64; 2])>,
+    /// The same for groups.
+    valid_groups: Vec<(CurveInput, [f64; 2])>,
     effect: Arc<dyn Effect>,
 }
 
@@ -222,15 +240,21 @@ impl Term {
         Self::of(&fitted_curve::FITTED_CURVE, Vec::new(), Arc::new(curve))
     }
 
-    fn of(kind: &'static EffectInfo, values: Vec<f64>, effect: Arc<dyn Effect>) -> Self {
-        Self { kind, values, valid: Vec::new(), valid_extra: Vec::new(), effect }
+    /// A closed form without a law.
+    pub fn fitted_form(form: FittedForm) -> Self {
+        Self::of(&fitted_form::INFO, Vec::new(), Arc::new(form))
     }
 
-    /// Reads one `[[effects]]` table; `extra` are the inputs that the model file declares.
+    fn of(kind: &'static EffectInfo, values: Vec<f64>, effect: Arc<dyn Effect>) -> Self {
+        let (valid, valid_extra, valid_groups) = Default::default();
+        Self { kind, values, valid, valid_extra, valid_groups, effect }
+    }
+
+    /// Reads one `[[effects]]` table; `declared` is what the model file declares.
     ///
     /// # Errors
     /// [`InputError::Fault`] for an unknown kind, or a parameter that is unknown, missing or out of bounds.
-    pub fn read(section: &Section<'_>, extra: &[ExtraInput]) -> Result<Self, InputError> {
+    pub fn read(section: &Section<'_>, declared: &Declared<'_>) -> Result<Self, InputError> {
         let id = section.required_text("kind")?;
         let law = EFFECTS.into_iter().find(|kind| kind.id == id);
         let curve = CURVES.into_iter().find(|kind| kind.id == id);
@@ -239,17 +263,20 @@ impl Term {
                 let values = kind.parameters.iter().map(|parameter| parameter.read(section));
                 Self::new(kind, &values.collect::<Result<Vec<f64>, _>>()?)
             }
-            (None, Some(kind)) => Self::fitted_curve(curve_reader::read(kind, section, extra)?),
+            (None, Some(kind)) if kind.id == fitted_form::INFO.id => {
+                Self::fitted_form(form_reader::read(section, declared)?)
+            }
+            (None, Some(kind)) => Self::fitted_curve(curve_reader::read(kind, section, declared)?),
             (None, None) => {
                 let ids: Vec<&str> = EFFECTS.iter().chain(&CURVES).map(|kind| kind.id).collect();
                 return Err(section.fault("kind", unknown(&id, "effect", &ids)));
             }
         };
         section.text("source")?;
-        let (valid, valid_extra) =
-            section.section("valid")?.map_or(Ok(Default::default()), |table| read_valid(&table, extra))?;
+        let ranges = section.section("valid")?.map(|table| read_valid(&table, declared)).transpose()?;
         section.finish()?;
-        Ok(Self { valid, valid_extra, ..term })
+        let Ranges { inputs: valid, extra: valid_extra, groups: valid_groups } = ranges.unwrap_or_default();
+        Ok(Self { valid, valid_extra, valid_groups, ..term })
     }
 
     /// What kind of effect it is.
@@ -262,7 +289,7 @@ impl Term {
         &self.values
     }
 
-    /// The ranges of [`INPUTS`] to which the term was fitted, by place in that list.
+    /// The ranges of [`INPUTS`](crate::impact::INPUTS) to which the term was fitted, by place in that list.
     pub fn valid(&self) -> &[(usize, [f64; 2])] {
         &self.valid
     }
@@ -270,6 +297,16 @@ impl Term {
     /// As [`Self::valid`] of the inputs that the model file declares.
     pub(crate) fn valid_extra(&self) -> &[(usize, [f64; 2])] {
         &self.valid_extra
+    }
+
+    /// As [`Self::valid`] of groups.
+    pub fn valid_groups(&self) -> &[(CurveInput, [f64; 2])] {
+        &self.valid_groups
+    }
+
+    /// The inputs and groups that a correction depends on; none for a law.
+    pub fn corrected_by(&self) -> Vec<CurveInput> {
+        self.effect().correction().map(Correction::inputs).unwrap_or_default()
     }
 
     /// The effect itself.
@@ -282,44 +319,40 @@ impl Term {
         self.kind.stream.map_or(0.0, uniform)
     }
 
-    /// Whether the impact lies in the range to which the term was fitted.
-    pub fn holds_for(&self, impact: &Impact) -> bool {
-        let inside =
-            |&(input, [low, high]): &(usize, [f64; 2])| (low..=high).contains(&(INPUTS[input].value)(impact));
-        let inside_extra = |&(input, [low, high]): &(usize, [f64; 2])| {
-            impact.extra.get(input).is_none_or(|value| (low..=high).contains(value))
-        };
-        self.valid.iter().all(inside) && self.valid_extra.iter().all(inside_extra)
-    }
-
-    /// Its kind and its numbers in words; `extra` are the inputs that the model file declares.
-    pub(crate) fn describe(&self, extra: &[ExtraInput]) -> String {
+    /// Its kind and its numbers in words, with the names that the model file declares.
+    pub(crate) fn describe(&self, declared: &Declared<'_>) -> String {
         let details = match self.effect().correction() {
-            Some(curve) => curve.describe(extra),
+            Some(correction) => correction.describe(declared),
             None => describe_values(self.kind.parameters, &self.values).join(", "),
         };
         format!("{}: {details}", self.kind.id)
     }
 }
 
-/// The range of some inputs, by place.
-type Ranges = Vec<(usize, [f64; 2])>;
+/// The ranges of a `valid` table.
+#[derive(Default)]
+struct Ranges {
+    inputs: Vec<(usize, [f64; 2])>,
+    extra: Vec<(usize, [f64; 2])>,
+    groups: Vec<(CurveInput, [f64; 2])>,
+}
 
-/// Reads `valid = { v_n = [0.5, 3], ... }`: the range of each input in the data of a fit, of [`INPUTS`] and of `extra`.
-fn read_valid(section: &Section<'_>, extra: &[ExtraInput]) -> Result<(Ranges, Ranges), InputError> {
-    let (mut valid, mut valid_extra) = (Vec::new(), Vec::new());
-    for (index, input) in INPUTS.iter().enumerate() {
-        if let Some(range) = section.range(input.name)? {
-            valid.push((index, range));
-        }
-    }
-    for (index, input) in extra.iter().enumerate().filter(|(_, input)| !input.is_label()) {
-        if let Some(range) = section.range(&input.name)? {
-            valid_extra.push((index, range));
+/// Reads `valid = { v_n = [0.5, 3], ... }`: the range of inputs and groups in the data of a fit.
+fn read_valid(section: &Section<'_>, declared: &Declared<'_>) -> Result<Ranges, InputError> {
+    let mut ranges = Ranges::default();
+    for name in CurveInput::names(declared) {
+        let range = || section.range(name);
+        match CurveInput::named(name, declared) {
+            Some(CurveInput::Input(place)) => ranges.inputs.extend(range()?.map(|range| (place, range))),
+            Some(CurveInput::Extra(place)) => ranges.extra.extend(range()?.map(|range| (place, range))),
+            Some(group @ (CurveInput::Group(_) | CurveInput::Product(_))) => {
+                ranges.groups.extend(range()?.map(|range| (group, range)));
+            }
+            Some(CurveInput::Label(_)) | None => {}
         }
     }
     section.finish()?;
-    Ok((valid, valid_extra))
+    Ok(ranges)
 }
 
 /// A factor on a strength, clamped to twelve decades either way; beyond, numbers would overflow.

@@ -8,6 +8,7 @@ use std::fmt;
 
 use super::displaced::{LEAST_SHARE, VISCOSITY_FACTOR};
 use super::general_wall::Watcher;
+use super::groups::ImpactOnWall;
 use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::{Stickiness, StickinessCriterion};
@@ -105,6 +106,7 @@ impl Beyond<'_> {
     /// The value of this impact, with its unit; `None` for a composition.
     pub fn value(&self) -> Option<String> {
         match self.limit {
+            Limit::Quantity { value, .. } if value.is_nan() => Some("no value".to_owned()),
             Limit::Quantity { value, unit, .. } => Some(with_unit(&short(value), unit)),
             Limit::Composition => None,
         }
@@ -277,6 +279,21 @@ impl Model {
         self.terms.iter().for_each(|term| of_term(self, term, impact, found));
     }
 
+    /// The terms whose ranges of groups an impact leaves.
+    pub(super) fn beyond_groups<'m>(&'m self, of: &ImpactOnWall<'_>, found: &mut Found<'m, '_>) {
+        let declared = self.declared();
+        for term in &self.terms {
+            let what = Stated::Law { name: term.kind().id };
+            for &(group, range) in term.valid_groups() {
+                let value = group.value(of);
+                if !(range[0]..=range[1]).contains(&value) {
+                    let name = group.name(&declared);
+                    found(Beyond { what, limit: Limit::Quantity { name, unit: "", value, range } });
+                }
+            }
+        }
+    }
+
     /// What an impact uses outside of its stated range, at both shares of a wall that is covered in
     /// part, each thing once; random numbers are at their median. Empty exactly where the outcome of
     /// the same draws has no [`outside_range`](crate::Outcome::outside_range).
@@ -292,7 +309,8 @@ impl Model {
 
 impl<'m> Watcher<'m> for Vec<Beyond<'m>> {
     fn beyond(&mut self, beyond: Beyond<'m>) {
-        if !self.contains(&beyond) {
+        // Texts, not values: a group without a value is not equal to itself.
+        if !self.iter().any(|known| known.what == beyond.what && known.to_string() == beyond.to_string()) {
             self.push(beyond);
         }
     }

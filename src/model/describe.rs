@@ -2,6 +2,8 @@
 
 use super::wall::Covering;
 use super::{Model, Wall};
+use crate::effect::{CurveInput, Term};
+use crate::group::GROUPS;
 use crate::law::{Origin, Parameter, describe_values};
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
@@ -24,6 +26,8 @@ impl Model {
         let mut lines = vec![("particle", particle)];
         lines.extend(self.walls.iter().map(|wall| ("wall", wall.describe())));
         lines.extend(self.extra_inputs.iter().map(|input| ("input", input.describe())));
+        lines.extend(self.products.iter().map(|product| ("group", product.describe(&self.extra_inputs))));
+        lines.extend(self.used_groups().map(|group| ("group", group)));
         lines.push(("normal", self.describe_normal()));
         lines.push(("tangential", self.describe_tangential()));
         let capture = self.capture.describe().map_or_else(
@@ -32,11 +36,21 @@ impl Model {
         );
         lines.push(("capture", capture));
         for term in &self.terms {
-            lines.push(("effect", term.describe(&self.extra_inputs)));
+            lines.push(("effect", term.describe(&self.declared())));
         }
         lines.extend(self.estimates());
         lines.extend(self.counted_twice().map(|note| ("note", note)));
         lines
+    }
+
+    /// The built-in groups on which terms depend, each once, in words.
+    fn used_groups(&self) -> impl Iterator<Item = String> {
+        let ranges = |term: &Term| term.valid_groups().iter().map(|(group, _)| *group).collect();
+        let of_term = |term: &Term| [term.corrected_by(), ranges(term)].concat();
+        let used: Vec<CurveInput> = self.terms.iter().flat_map(of_term).collect();
+        let is_used = move |place: &usize| used.contains(&CurveInput::Group(*place));
+        let groups = GROUPS.iter().enumerate().filter(move |(place, _)| is_used(place));
+        groups.map(|(_, group)| format!("{} = {}, {}", group.name, group.formula, group.words))
     }
 
     /// What decides the stickiness of the particles and has a band, and the properties of the materials in use that

@@ -189,7 +189,8 @@ pub(super) trait WallSteps {
         plain
     }
 
-    /// Whether a law was used outside the range that it is stated for, known after the last step.
+    /// Whether a law, or a term with a range of a group, was used outside the range that it is stated for, known
+    /// after the last step.
     #[inline(always)]
     fn left_range(&self) -> bool {
         false
@@ -298,10 +299,10 @@ pub(super) fn evaluate<S: WallSteps>(
         // The probability is 1 if adhesion or a film holds the particle.
         let by_stickiness = steps.capture_probability(&state.impact, state.sticky);
         let probability = if state.normal.held { 1.0 } else { by_stickiness };
-        state.outside_range |= steps.left_range();
         steps.trace("capture", "p_stick", probability);
         let restitution = [state.normal_restitution, state.rebound.restitution];
         let corrected = steps.correct(Corrected { restitution, probability });
+        state.outside_range |= steps.left_range();
         [state.normal_restitution, state.rebound.restitution] = corrected.restitution;
         state.probability = corrected.probability;
         state.captured = (state.probability >= 1.0) | (state.chance < state.probability);

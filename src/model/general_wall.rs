@@ -9,12 +9,14 @@ use super::energy_bound;
 use super::evaluation::{
     Corrected, ImpactState, NormalRebound, OnBareWall, StepSet, WallSteps, both_shares, evaluate,
 };
+use super::groups::ImpactOnWall;
 use super::tilted_frame::TiltedFrame;
 use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
 use crate::deposit::layers;
-use crate::effect::{CurveForm, CurveTarget, OnMelt, Term, shifted_probability, stream};
+use crate::effect::{CurveForm, CurveInput, CurveTarget, OnMelt, Term, shifted_probability, stream};
+use crate::group::GROUPS;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
 use crate::tangential::{ImpactKinematics, Rebound};
@@ -34,6 +36,9 @@ pub(super) trait Watcher<'m> {
 
     /// Receives what is used outside of its range.
     fn beyond(&mut self, _beyond: Beyond<'m>) {}
+
+    /// Receives `e_n` [1] before the fitted corrections.
+    fn before_corrections(&mut self, _normal_restitution: f64) {}
 }
 
 /// Watches nothing.
@@ -280,10 +285,10 @@ impl Model {
     }
 
     /// The outcome after the fitted corrections, in the order of the file; of capture, the factors
-    /// are multiplied and the shifts of the log odds added up. `reaching` is the impact on the wall as a whole.
+    /// are multiplied and the shifts of the log odds added up. `of` is the impact on the wall as a whole.
     pub(super) fn corrected(
         &self,
-        reaching: &Impact,
+        of: &ImpactOnWall<'_>,
         plain: Corrected,
         trace: &mut impl FnMut(&'static str, &'static str, f64),
     ) -> Corrected {
@@ -291,24 +296,25 @@ impl Model {
             return plain;
         }
         let Corrected { restitution: [mut e_n, mut e_t], mut probability } = plain;
-        let (mut factor, mut shift) = (1.0, 0.0);
+        let (mut capture, mut factor, mut shift) = (probability, 1.0, 0.0);
         for term in &self.terms {
-            let Some(curve) = term.effect().correction() else { continue };
-            let value = curve.value(reaching);
-            let (quantity, corrected) = match curve.on {
+            let Some(correction) = term.effect().correction() else { continue };
+            let Some(value) = correction.value(of) else { continue };
+            let (quantity, corrected) = match correction.on() {
                 CurveTarget::NormalRestitution => ("e_n", &mut e_n),
                 CurveTarget::TangentialRestitution => ("e_t", &mut e_t),
                 CurveTarget::Capture => ("p_stick", &mut probability),
             };
-            *corrected = match curve.on {
+            *corrected = match correction.on() {
                 CurveTarget::Capture => {
-                    match curve.form {
+                    match correction.acts() {
                         CurveForm::Add => shift += value,
                         CurveForm::Factor => factor *= 1.0 + value,
+                        CurveForm::Set => (capture, factor, shift) = (value, 1.0, 0.0),
                     }
-                    shifted_probability(plain.probability, factor, shift)
+                    shifted_probability(capture, factor, shift)
                 }
-                _ => curve.form.apply(*corrected, value),
+                _ => correction.acts().apply(*corrected, value),
             };
             trace(term.kind().id, quantity, *corrected);
         }
@@ -323,6 +329,23 @@ impl Model {
     pub(super) fn rebound_loss(&self) -> f64 {
         let by_criterion = if self.stickiness.is_some() { 1.0 } else { 0.0 };
         self.terms.iter().map(|term| term.effect().rebound_loss()).fold(by_criterion, f64::max)
+    }
+}
+
+impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> GeneralWall<'m, '_, U, W> {
+    /// Traces the built-in groups on which corrections depend.
+    fn show_groups(&mut self, of: &ImpactOnWall<'_>) {
+        for term in &self.model.terms {
+            for input in term.corrected_by() {
+                let group = match input {
+                    CurveInput::Group(place) => GROUPS.get(place),
+                    _ => None,
+                };
+                if let Some(group) = group {
+                    self.watcher.trace(term.kind().id, group.name, group.value(of));
+                }
+            }
+        }
     }
 }
 
@@ -508,8 +531,21 @@ impl<'m, U: Fn(u64) -> f64, W: Watcher<'m>> WallSteps for GeneralWall<'m, '_, U,
     }
 
     fn correct(&mut self, plain: Corrected) -> Corrected {
+        let Self { model, wall, reaching, .. } = *self;
+        let [normal_restitution, _] = plain.restitution;
+        let of = ImpactOnWall { model, wall, impact: reaching, normal_restitution };
+        self.watcher.before_corrections(normal_restitution);
+        if W::SHOWS {
+            self.show_groups(&of);
+        }
+        if model.has_group_ranges {
+            model.beyond_groups(&of, &mut |beyond| {
+                self.left_range = true;
+                self.watcher.beyond(beyond);
+            });
+        }
         let mut trace = |term, quantity, value| self.watcher.trace(term, quantity, value);
-        self.model.corrected(self.reaching, plain, &mut trace)
+        model.corrected(&of, plain, &mut trace)
     }
 
     fn left_range(&self) -> bool {

@@ -16,6 +16,7 @@ mod energy_bound;
 mod evaluation;
 mod expectation;
 mod general_wall;
+mod groups;
 mod particle;
 mod prepared_block;
 mod prepared_wall;
@@ -30,6 +31,7 @@ use std::sync::Arc;
 
 use crate::capture::{Capture, StickinessCriterion};
 use crate::effect::Term;
+use crate::group::ProductGroup;
 use crate::impact::{EXTRA_INPUTS, ExtraInput, Impact, ImpactError, Outcome};
 use crate::input::{Document, InputError};
 use crate::material::{Material, overlap};
@@ -66,6 +68,8 @@ pub struct Model {
     tangential: TangentialLaw,
     /// Inputs that the model file declares.
     extra_inputs: Vec<ExtraInput>,
+    /// Groups that the model file declares.
+    products: Vec<ProductGroup>,
     terms: Vec<Term>,
     /// Whether a term depends on the melt on the wall.
     uses_melt: bool,
@@ -73,6 +77,8 @@ pub struct Model {
     adds_energy: bool,
     /// Whether a term is a fitted correction.
     has_corrections: bool,
+    /// Whether a term is stated for a range of a group.
+    has_group_ranges: bool,
     /// For each wall its prepared form; `None` where every impact needs the general steps.
     prepared: Vec<Option<PreparedWall>>,
     /// For each wall the temperatures [K] within which only [`Impact::check`] can refuse an impact;
@@ -195,6 +201,7 @@ impl Model {
         self.uses_melt = self.terms.iter().any(|term| term.effect().uses_melt());
         self.adds_energy = self.terms.iter().any(|term| term.effect().may_add_energy());
         self.has_corrections = self.terms.iter().any(|term| term.effect().correction().is_some());
+        self.has_group_ranges = self.terms.iter().any(|term| !term.valid_groups().is_empty());
         self.prepared = self.walls.iter().map(|wall| PreparedWall::new(&self, wall)).collect();
         let decided = !self.has_droplets() && self.extra_inputs.is_empty();
         self.decided = self.walls.iter().map(|wall| decided.then(|| self.ranges_of(wall))).collect();

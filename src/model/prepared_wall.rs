@@ -1,7 +1,7 @@
 //! The steps of an impact on a prepared wall: what model and wall decide is computed when the model is read.
 //!
 //! A wall is prepared when every effect of the model has a precomputed form ([`Precomputed`]),
-//! particles are no droplets and the model file declares no inputs. The contact of particle and
+//! particles are no droplets, and the model file declares no inputs and no range of a group. The contact of particle and
 //! wall is the same for all impacts ([`PreparedImpact`] with `CONSTANT`), or it varies
 //! ([`VaryingContact`]): properties over temperature, char that becomes ash, slag, powder. Both
 //! follow the same steps, alone and in blocks (`prepared_block.rs`). The steps have no branches, so
@@ -128,7 +128,7 @@ pub(super) struct PreparedImpact<'a, const CONSTANT: bool> {
 impl PreparedWall {
     /// Prepares a wall; `None` where its impacts need the general steps.
     pub fn new(model: &Model, wall: &Wall) -> Option<Self> {
-        if model.has_droplets() || !model.extra_inputs.is_empty() {
+        if model.has_droplets() || model.has_group_ranges || !model.extra_inputs.is_empty() {
             return None;
         }
         // What lies on the wall changes these inputs before a range is checked.

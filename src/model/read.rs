@@ -10,6 +10,7 @@ use crate::capture::{Capture, Criterion, StickinessCriterion};
 use crate::deposit::WallProcesses;
 use crate::effect::Term;
 use crate::erosion::{self, Erosion};
+use crate::group::{Declared, read_products};
 use crate::impact::read_extra_inputs;
 use crate::input::{Document, InputError, Limits, Section};
 use crate::material::{Library, Material};
@@ -24,13 +25,14 @@ const LAYER_THICKNESS: Limits =
     Limits { unit: "m", low: 0.0, high: 100.0, known: "no furnace is that large" };
 
 /// The tables of a model file.
-const MODEL_TABLES: [&str; 10] = [
+const MODEL_TABLES: [&str; 11] = [
     "particle",
     "walls",
     "normal",
     "tangential",
     "capture",
     "inputs",
+    "groups",
     "effects",
     "erosion",
     "materials",
@@ -75,9 +77,11 @@ impl Model {
         let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
         let extra_inputs = read_extra_inputs(top)?;
-        let terms = top.sections("effects")?;
+        let products = read_products(top, &extra_inputs)?;
+        let sections = top.sections("effects")?;
+        let declared = Declared { inputs: &extra_inputs, products: &products };
         let terms =
-            terms.iter().map(|section| Term::read(section, &extra_inputs)).collect::<Result<_, _>>()?;
+            sections.iter().map(|section| Term::read(section, &declared)).collect::<Result<_, _>>()?;
         if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
             let needs = capture.criterion.map_or("", Criterion::needs);
             let problem =
@@ -94,14 +98,32 @@ impl Model {
             normal,
             tangential,
             extra_inputs,
+            products,
             terms,
             uses_melt: false,
             adds_energy: false,
             has_corrections: false,
+            has_group_ranges: false,
             prepared: Vec::new(),
             decided: Vec::new(),
         };
-        Ok(model.prepare())
+        let model = model.prepare();
+        model.check_groups(&sections)?;
+        Ok(model)
+    }
+
+    /// Checks that the groups of the terms, in the order of their sections, can be computed.
+    fn check_groups(&self, sections: &[Section<'_>]) -> Result<(), InputError> {
+        for (section, term) in sections.iter().zip(&self.terms) {
+            let corrected = term.corrected_by().into_iter().map(|input| ("input", input));
+            let valid = term.valid_groups().iter().map(|(group, _)| ("valid", *group));
+            for (key, group) in corrected.chain(valid) {
+                if let Some(problem) = self.lacks(group) {
+                    return Err(section.fault(key, problem));
+                }
+            }
+        }
+        Ok(())
     }
 }
 

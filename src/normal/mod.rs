@@ -169,6 +169,14 @@ impl NormalLaw {
         }
     }
 
+    /// Whether there are speeds under which particles stick by this law.
+    pub fn has_sticking_velocity(self) -> bool {
+        match self {
+            Self::Listed { law, .. } => law.sticking_velocity.is_some(),
+            _ => self.is_contact_law(),
+        }
+    }
+
     /// Whether the law is stated for an impact: the contact radius has to stay below
     /// [`LARGEST_CONTACT_RADIUS`] times that of the particle, and a listed law has the range of its
     /// fit.

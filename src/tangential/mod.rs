@@ -176,6 +176,18 @@ impl TangentialLaw {
         }
     }
 
+    /// Its friction coefficient [1]; `None` for a law without one.
+    pub fn friction(self) -> Option<f64> {
+        match self {
+            Self::Constant { .. } => None,
+            Self::Sliding { friction } | Self::SlidingRolling { friction } => Some(friction),
+            Self::Listed { law, values } => {
+                let place = law.parameters.iter().position(|parameter| parameter.name == "friction")?;
+                values.get(place).copied()
+            }
+        }
+    }
+
     /// Tangential restitution and spin after the impact. Without tangential speed the restitution
     /// is its limit for a small one.
     #[inline(always)]

@@ -8,6 +8,7 @@ use super::super::part::{FittedPart, Part, rounded};
 use super::super::record::Estimate;
 use super::super::search::SearchAxis;
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
+use nearwall::group::Declared;
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
@@ -179,7 +180,7 @@ fn with_term(model: &Model, term: Term) -> Model {
 }
 
 fn curve_table(curve: &FittedCurve, valid: &InlineTable) -> Table {
-    let inputs: Vec<&str> = curve.axes.iter().map(|axis| axis.input.name(&[])).collect();
+    let inputs: Vec<&str> = curve.axes.iter().map(|axis| axis.input.name(&Declared::default())).collect();
     let knots: Vec<Value> = curve.axes.iter().map(|axis| list(&axis.knots)).collect();
     let on = [curve.on.name(), curve.form.name()];
     curve_effect(on, &inputs, &knots, (&curve.values, 1), valid.clone())
