@@ -26,6 +26,8 @@ pub(super) enum Class {
     Level,
     /// A curve over a column that no law knows.
     Curve,
+    /// A curve over a dimensionless group.
+    Group,
     /// A curve over an input of laws, without a law, or a surface over two columns.
     Lawless,
     /// A mistake in the numbers, an instrument or a geometry.
@@ -42,7 +44,8 @@ impl Class {
     fn of_columns(columns: impl Iterator<Item = usize>, data: &DataSplit) -> Self {
         match columns.collect::<Vec<_>>()[..] {
             [] => Self::Level,
-            [column] if !data.covariates[column].input => Self::Curve,
+            [column] if data.covariates[column].is_group() => Self::Group,
+            [column] if !data.covariates[column].is_input() => Self::Curve,
             _ => Self::Lawless,
         }
     }
@@ -59,7 +62,7 @@ impl Class {
             Self::Noise => 0.5,
             Self::Number => 0.3,
             Self::Curve | Self::Rival => 0.2,
-            Self::Level | Self::Lawless => 0.06,
+            Self::Level | Self::Group | Self::Lawless => 0.06,
         }
     }
 }

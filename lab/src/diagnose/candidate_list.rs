@@ -75,7 +75,8 @@ fn pairs(data: &DataSplit, one: usize, observable: Observable) -> Vec<Sides> {
     // How e_t depends on the speeds is a matter of the tangential law.
     let speed = |column: usize| ["v_n", "v_t"].contains(&data.covariates[column].name.as_str());
     let free = |column: &usize| {
-        let numeric = matches!(data.values(*column), ColumnValues::Numbers(_));
+        let covariate = &data.covariates[*column];
+        let numeric = matches!(covariate.values, ColumnValues::Numbers(_)) && !covariate.is_group();
         numeric && (observable != Observable::TangentialRestitution || !speed(*column))
     };
     if !free(&one) {
@@ -110,7 +111,7 @@ fn scatter_trends(hypothesis: &Hypothesis<'_>) -> impl Iterator<Item = Candidate
     let known = |covariate: usize| hypothesis.scatter_trends.iter().any(|trend| trend.covariate == covariate);
     let columns = hypothesis.data.covariates.iter().enumerate();
     let open = columns.filter(move |(covariate, column)| {
-        matches!(column.values, ColumnValues::Numbers(_)) && !known(*covariate)
+        matches!(column.values, ColumnValues::Numbers(_)) && !column.is_group() && !known(*covariate)
     });
     open.map(|(covariate, _)| Candidate::ScatterTrend { covariate })
 }

@@ -3,6 +3,7 @@
 
 use nalgebra::DMatrix;
 
+use super::closed_form::ClosedForm;
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
@@ -86,11 +87,11 @@ impl ColumnCurveForm {
         if self.observable != Observable::Capture {
             let points = evaluation.residuals(self.observable, self.multiplicative);
             let Smoothed { heights, freedom } = self.smooth(evaluation, &points)?;
-            return Some(ColumnCurve { form: self, heights, freedom });
+            return Some(ColumnCurve { form: self, heights, freedom, closed: None });
         }
         let constant = constant_odds(evaluation)?;
         if self.sides.is_empty() {
-            return Some(ColumnCurve { form: self, heights: vec![constant], freedom: 1.0 });
+            return Some(ColumnCurve::constant(self, constant));
         }
         let mut fitted: Option<Smoothed> = None;
         let height = |fitted: &Option<Smoothed>, row: usize| {
@@ -108,7 +109,7 @@ impl ColumnCurveForm {
             fitted = Some(self.smooth(evaluation, &points)?);
         }
         let Smoothed { heights, freedom } = fitted?;
-        Some(ColumnCurve { form: self, heights, freedom })
+        Some(ColumnCurve { form: self, heights, freedom, closed: None })
     }
 }
 
@@ -128,19 +129,44 @@ pub(super) struct ColumnCurve {
     pub heights: Vec<f64>,
     /// Effective number of parameters.
     pub freedom: f64,
+    /// The closed form that stands in the place of the heights.
+    pub closed: Option<ClosedForm>,
 }
 
 impl ColumnCurve {
-    /// The height at a row, without the scale.
-    pub fn height(&self, data: &DataSplit, row: usize) -> f64 {
-        sum(&self.form.entry(data, row), &self.heights)
+    /// A level with this height.
+    pub fn constant(form: ColumnCurveForm, height: f64) -> Self {
+        Self { form, heights: vec![height], freedom: 1.0, closed: None }
+    }
+
+    /// The curve with a closed form in the place of its heights.
+    pub fn closed_by(&self, closed: ClosedForm) -> Self {
+        Self { freedom: closed.freedom(), closed: Some(closed), ..self.clone() }
+    }
+
+    /// The same curve fitted again; `None` where there are too few points.
+    pub fn again(&self, evaluation: &Evaluation<'_>) -> Option<Self> {
+        let free = self.form.clone().fit(evaluation)?;
+        match &self.closed {
+            Some(closed) => Some(free.closed_by(closed.again(self, evaluation)?)),
+            None => Some(free),
+        }
+    }
+
+    /// What it adds to a prediction in a row; of capture to the log odds.
+    fn change(&self, data: &DataSplit, row: usize, predicted: f64) -> f64 {
+        if let (Some(closed), [(column, _)]) = (&self.closed, self.form.sides.as_slice()) {
+            let cell = data.covariates.get(*column).map_or(f64::NAN, |column| column.cell(row));
+            return if cell.is_nan() { 0.0 } else { closed.change(cell, predicted, self.form.observable) };
+        }
+        let scale = if self.form.multiplicative { predicted } else { 1.0 };
+        sum(&self.form.entry(data, row), &self.heights) * scale
     }
 
     /// Adds the curve to the offsets of the evaluated rows.
     pub fn add_to(&self, offsets: &mut [Offset], evaluation: &Evaluation<'_>) {
         for (row, predicted) in evaluation.plain(self.form.observable) {
-            let scale = if self.form.multiplicative { predicted } else { 1.0 };
-            let height = self.height(evaluation.data, row) * scale;
+            let height = self.change(evaluation.data, row, predicted);
             let offset = &mut offsets[row];
             let which = self.form.observable as usize;
             *offset.restitution.get_mut(which).unwrap_or(&mut offset.capture) += height;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
+use super::group_column::group_columns;
 use super::groups::{GroupColumn, units};
 use super::input_error::corrected;
 use super::likelihood::{GROSS_SHARE, Offset};
@@ -29,22 +30,32 @@ const FARTHEST_DEVIATION: f64 = 4.0;
 /// With fewer readings no gross errors are expected: a row that looks like one is evidence.
 const MANY_READINGS: usize = 30;
 
-/// A column that may explain the residuals: an input of the model or a further column of the file.
+/// What a column is.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum ColumnKind {
+    /// An input of every impact.
+    Input,
+    /// Another column of the file.
+    Further,
+    /// A dimensionless group, and the columns of the file that state a property for it, with their medians.
+    Group { needs: Vec<(String, f64)> },
+}
+
+/// A column that may explain the residuals.
 #[derive(Debug, Clone)]
 pub(super) struct Covariate {
     pub name: String,
-    /// SI unit of an input; empty for a further column.
+    /// SI unit of an input or group; empty for a further column.
     pub unit: &'static str,
     /// Blank cells of numbers have the median, which has no effect of its own.
     pub values: ColumnValues,
     /// Rows with a blank cell.
     pub blank: Arc<[bool]>,
-    /// Whether it is an input of the model.
-    pub input: bool,
+    pub kind: ColumnKind,
 }
 
 impl Covariate {
-    fn new(name: &str, unit: &'static str, mut values: ColumnValues, input: bool) -> Self {
+    pub fn new(name: &str, unit: &'static str, mut values: ColumnValues, kind: ColumnKind) -> Self {
         let blank = match &mut values {
             ColumnValues::Numbers(numbers) => {
                 let blank: Vec<bool> = numbers.iter().map(|number| !number.is_finite()).collect();
@@ -54,7 +65,15 @@ impl Covariate {
             }
             ColumnValues::Labels { of_row, .. } => of_row.iter().map(Option::is_none).collect(),
         };
-        Self { name: name.to_owned(), unit, values, blank: blank.into(), input }
+        Self { name: name.to_owned(), unit, values, blank: blank.into(), kind }
+    }
+
+    pub fn is_input(&self) -> bool {
+        self.kind == ColumnKind::Input
+    }
+
+    pub fn is_group(&self) -> bool {
+        matches!(self.kind, ColumnKind::Group { .. })
     }
 
     fn varies(&self) -> bool {
@@ -109,7 +128,7 @@ pub(super) fn standardised(values: impl Iterator<Item = f64> + Clone) -> Vec<f64
 }
 
 /// The median of some numbers; NaN of none.
-fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+pub(super) fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);
     sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
@@ -297,7 +316,7 @@ impl DataSplit {
     /// The values that stand for a blank cell of an input; none for other cells.
     pub fn shown_instead(&self, covariate: usize, row: usize) -> &[f64] {
         let blank =
-            self.covariates.get(covariate).filter(|covariate| covariate.input && covariate.blank[row]);
+            self.covariates.get(covariate).filter(|covariate| covariate.is_input() && covariate.blank[row]);
         let input = blank.and_then(|blank| INPUTS.iter().position(|input| input.name == blank.name));
         input.map_or(&[], |input| self.missing.values(input))
     }
@@ -316,14 +335,15 @@ impl DataSplit {
     }
 }
 
-/// The inputs that the file states and its further columns, if they vary; without those that group the rows.
+/// The inputs that the file states, its further columns and the groups of both, if they vary; without columns that
+/// group the rows.
 fn covariates(base: &Model, data: &Measurements, missing: &MissingInputs, groups: &[&str]) -> Vec<Covariate> {
     let given = INPUTS.iter().enumerate().filter(|(_, input)| data.given.contains(&input.name));
     let inputs = given.map(|(place, input)| {
         let lacks = |row: &Measurement| !row.stated[place] && !missing.values(place).is_empty();
         let cell = |row: &Measurement| if lacks(row) { f64::NAN } else { (input.value)(&row.impact) };
         let numbers = data.rows.iter().map(cell).collect();
-        Covariate::new(input.name, input.unit, ColumnValues::Numbers(numbers), true)
+        Covariate::new(input.name, input.unit, ColumnValues::Numbers(numbers), ColumnKind::Input)
     });
     let declared = data.given_extra.iter().filter_map(|&place| {
         let input = base.extra_inputs().get(place)?;
@@ -337,9 +357,13 @@ fn covariates(base: &Model, data: &Measurements, missing: &MissingInputs, groups
         } else {
             ColumnValues::Numbers(data.rows.iter().map(cell).collect())
         };
-        Some(Covariate::new(&input.name, "", values, false))
+        Some(Covariate::new(&input.name, "", values, ColumnKind::Further))
     });
     let further = data.columns.iter().filter(|column| !groups.contains(&column.name.as_str()));
-    let further = further.map(|DataColumn { name, values }| Covariate::new(name, "", values.clone(), false));
-    inputs.chain(declared).chain(further).filter(Covariate::varies).collect()
+    let further = further
+        .map(|DataColumn { name, values }| Covariate::new(name, "", values.clone(), ColumnKind::Further));
+    let mut all: Vec<Covariate> = inputs.chain(declared).chain(further).filter(Covariate::varies).collect();
+    let groups = group_columns(base, data, &all, &|row| missing.lacks(row));
+    all.extend(groups.into_iter().filter(Covariate::varies));
+    all
 }

@@ -157,7 +157,7 @@ fn curve(
 
     let middles = (0..CURVE_POINTS)
         .map(|step| place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64);
-    let input = INPUTS.iter().enumerate().find(|(_, input)| main.input && input.name == main.name);
+    let input = INPUTS.iter().enumerate().find(|(_, input)| main.is_input() && input.name == main.name);
     let Copies { copies, originals, values, weights } = {
         let mut all = Copies::default();
         for middle in middles {
@@ -192,6 +192,7 @@ fn curve(
 
 #[cfg(test)]
 mod tests {
+    use super::super::data_split::ColumnKind;
     use super::*;
 
     #[test]
@@ -201,7 +202,7 @@ mod tests {
             unit: "",
             blank: vec![false; values.len()].into(),
             values: ColumnValues::Numbers(values),
-            input: false,
+            kind: ColumnKind::Further,
         };
         let rows: Vec<usize> = (0..90).collect();
         let even = covariate((0..90).map(f64::from).collect());

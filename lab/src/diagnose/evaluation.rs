@@ -257,6 +257,15 @@ impl<'a> Evaluation<'a> {
         })
     }
 
+    /// Index, number of impacts and share captured [1] of the rows whose outcome is known.
+    pub fn shares(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
+        let rebound = |row: &Measurement| row.is_unstated_rebound().then_some(0.0);
+        self.rows.iter().filter_map(move |&index| {
+            let row = &self.data.rows[index];
+            Some((index, [row.impacts, row.captured.or_else(|| rebound(row))?]))
+        })
+    }
+
     /// The slope of every row's log score by the predictions, without draws.
     pub fn slopes(&self) -> Vec<Slope> {
         let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {

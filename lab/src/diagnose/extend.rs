@@ -2,9 +2,10 @@
 
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
 
+use super::closed_form::ClosedForm;
 use super::constant_capture::ConstantCapture;
 use super::curve::{ColumnCurve, ColumnCurveForm};
-use super::data_split::DataSplit;
+use super::data_split::{ColumnKind, DataSplit};
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
@@ -12,7 +13,6 @@ use super::record::Estimate;
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EffectInfo;
-use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
 /// What the file gives as the source of an effect.
@@ -49,7 +49,7 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
     let rate = (rate != 0.0).then_some((rate, false));
     for (height, factor) in ceiling.map(|ceiling| (ceiling - 1.0, true)).into_iter().chain(rate) {
         let form = ColumnCurveForm::level(Observable::Capture, factor);
-        added.push(fitted_curve(hypothesis.data, &ColumnCurve { form, heights: vec![height], freedom: 1.0 }));
+        added.push(fitted_curve(hypothesis.data, &ColumnCurve::constant(form, height)));
     }
     Ok(with_effects(document, added))
 }
@@ -73,27 +73,55 @@ fn is_readable(document: &DocumentMut, curve: &Table) -> bool {
 
 /// Whether a model file contains a curve.
 pub(super) fn contains(text: &str, curve: &ColumnCurve, data: &DataSplit) -> bool {
-    let columns = curve.form.columns(data);
-    columns.iter().all(|name| {
-        INPUTS.iter().any(|input| input.name == name)
+    let mut columns = curve.form.sides.iter().map(|(column, _)| &data.covariates[*column]);
+    columns.all(|column| {
+        let name = &column.name;
+        column.kind != ColumnKind::Further
             || text.parse::<DocumentMut>().is_ok_and(|document| {
                 document.get("inputs").is_some_and(|inputs| inputs.get(name.as_str()).is_some())
             })
     })
 }
 
-/// A curve, a surface or a level shift as an effect.
+/// A curve, a surface, a closed form or a level shift as an effect.
 fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
     let on = match curve.form.observable {
         Observable::Capture => "capture",
         observable => observable.name(),
     };
+    if let Some(closed) = &curve.closed {
+        return fitted_form(data, curve, closed, on);
+    }
     let form = if curve.form.multiplicative { "factor" } else { "add" };
     let sides = &curve.form.sides;
     let knots: Vec<Value> = sides.iter().map(|(column, basis)| knots(data, *column, basis)).collect();
     let wide = sides.last().map_or(1, |(_, basis)| basis.len().max(1));
     let columns = curve.form.columns(data);
-    curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid(data))
+    curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid_over(data, curve))
+}
+
+/// A closed form as an effect, with the intervals of its parameters.
+fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &str) -> Table {
+    let mut table = Table::from_iter([("kind", value("fitted-form")), ("on", value(on))]);
+    table.insert("form", value(closed.info.name));
+    table.insert("acts", value(closed.acts.name()));
+    table.extend(curve.form.columns(data).first().map(|column| ("input", value(column.as_str()))));
+    for (parameter, number) in closed.info.parameters.iter().zip(&closed.parameters) {
+        table.insert(parameter.name, value(rounded(*number)));
+    }
+    table.insert("valid", value(valid_over(data, curve)));
+    table.insert("source", value(SOURCE));
+    table
+}
+
+/// The range of every input that varies in the fitted rows, and of the groups of a curve.
+fn valid_over(data: &DataSplit, curve: &ColumnCurve) -> InlineTable {
+    let columns = curve.form.sides.iter().map(|(column, _)| &data.covariates[*column]);
+    let groups = columns.filter(|column| !column.is_input());
+    let groups = ranges(groups.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))));
+    let mut all = valid(data);
+    all.extend(groups);
+    all
 }
 
 /// A curve, a surface or a level shift on an observable, in a form, over inputs with their knots.
@@ -142,30 +170,37 @@ fn knots(data: &DataSplit, column: usize, basis: &Basis) -> Value {
     }
 }
 
-/// Declares the columns of a curve that the library does not know as inputs of the model.
+/// Declares the columns of a curve, and those that its groups need, as inputs of the model where it does not have them.
 fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCurve) {
     for (column, _) in &curve.form.sides {
         let covariate = &data.covariates[*column];
-        if covariate.input {
-            continue;
-        }
-        let inputs = document.entry("inputs").or_insert_with(|| {
-            let mut inputs = Table::new();
-            inputs.set_implicit(true);
-            Item::Table(inputs)
-        });
-        let mut input = Table::new();
-        match &covariate.values {
-            ColumnValues::Numbers(_) => input.insert("default", value(covariate.median())),
-            ColumnValues::Labels { levels, .. } => {
-                input.insert("labels", value(levels.iter().collect::<Array>()))
+        match (&covariate.kind, &covariate.values) {
+            (ColumnKind::Input, _) => {}
+            (ColumnKind::Group { needs }, _) => {
+                needs.iter().for_each(|(name, median)| declare(document, name, ("default", value(*median))));
             }
-        };
-        if let Some(inputs) = inputs.as_table_like_mut()
-            && !inputs.contains_key(&covariate.name)
-        {
-            inputs.insert(&covariate.name, Item::Table(input));
+            (ColumnKind::Further, ColumnValues::Numbers(_)) => {
+                declare(document, &covariate.name, ("default", value(covariate.median())));
+            }
+            (ColumnKind::Further, ColumnValues::Labels { levels, .. }) => {
+                let labels = value(levels.iter().collect::<Array>());
+                declare(document, &covariate.name, ("labels", labels));
+            }
         }
+    }
+}
+
+/// Declares an input with one key.
+fn declare(document: &mut DocumentMut, name: &str, (key, item): (&str, Item)) {
+    let inputs = document.entry("inputs").or_insert_with(|| {
+        let mut inputs = Table::new();
+        inputs.set_implicit(true);
+        Item::Table(inputs)
+    });
+    if let Some(inputs) = inputs.as_table_like_mut()
+        && !inputs.contains_key(name)
+    {
+        inputs.insert(name, Item::Table(Table::from_iter([(key, item)])));
     }
 }
 
@@ -204,7 +239,7 @@ pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable)
 
 /// The range of every input that varies in the fitted rows.
 fn valid(data: &DataSplit) -> InlineTable {
-    let inputs = data.covariates.iter().filter(|c| c.input && matches!(c.values, ColumnValues::Numbers(_)));
+    let inputs = data.covariates.iter().filter(|c| c.is_input() && matches!(c.values, ColumnValues::Numbers(_)));
     ranges(inputs.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))))
 }
 

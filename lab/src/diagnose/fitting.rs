@@ -10,8 +10,9 @@ use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
+use super::closed_form::forms;
 use super::constant_capture::CaptureConstant;
-use super::curve::ColumnCurveForm;
+use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::few_rows::FewRows;
@@ -222,12 +223,30 @@ impl<'a> CandidateRound<'a> {
         let sides = columns.iter().map(basis).collect::<Option<Vec<_>>>()?;
         let fit = |multiplicative| {
             let form = ColumnCurveForm { sides: sides.clone(), observable, multiplicative };
-            let curve = Addition::Curve(form.fit(&self.search)?);
-            Some((self.fitted_gain(&curve), curve))
+            let curve = form.fit(&self.search)?;
+            Some((self.fitted_gain(&Addition::Curve(curve.clone())), curve))
         };
         let multiplied = if observable == Observable::Capture { None } else { fit(true) };
         let better = fit(false).into_iter().chain(multiplied).max_by(|a, b| a.0.total_cmp(&b.0))?;
-        Some(better.1)
+        Some(Addition::Curve(self.closed_or_free(better)))
+    }
+
+    /// A curve with its gain [nats], or the closed form that has more evidence.
+    fn closed_or_free(&self, (gain, free): (f64, ColumnCurve)) -> ColumnCurve {
+        if gain < PROMISING_GAIN {
+            return free;
+        }
+        let readings = self.search.residuals(free.form.observable, false).len().max(2) as f64;
+        let worth = |gain: f64, freedom: f64| gain - 0.5 * freedom * readings.ln();
+        let of = self.hypothesis;
+        // What replaces a prediction would undo what parts and curves do to it.
+        let sets = of.parts.is_empty() && of.curves.iter().all(|one| one.form.observable != free.form.observable);
+        let best = forms(&free, &self.search, sets).into_iter().next().map(|(closed, _)| free.closed_by(closed));
+        let better = best.filter(|closed| {
+            let gain_closed = self.fitted_gain(&Addition::Curve(closed.clone()));
+            worth(gain_closed, closed.freedom) > worth(gain, free.freedom)
+        });
+        better.unwrap_or(free)
     }
 
     /// A constant of captures; the parts are refitted beside a ceiling, without which they are too wide.

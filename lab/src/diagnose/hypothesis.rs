@@ -209,8 +209,7 @@ impl<'a> Hypothesis<'a> {
             self.set_noise(self.evaluate(rows, &offsets));
             for place in 0..self.curves.len() {
                 let curve = self.curves.remove(place);
-                let fitted =
-                    curve.form.clone().fit(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
+                let fitted = curve.again(&self.evaluate(rows, self.offsets()).with_fitted_scatter());
                 self.curves.insert(place, fitted.unwrap_or(curve));
             }
         }

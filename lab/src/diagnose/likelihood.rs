@@ -129,13 +129,24 @@ impl Censored {
 
 /// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
 fn capture(prediction: &Prediction, offset: &Offset) -> f64 {
-    let bounded = |share: f64| UNCERTAINTY + (1.0 - 2.0 * UNCERTAINTY) * share;
-    let plain = bounded(offset.ceiling * prediction.capture);
+    let plain = visible_capture(offset.ceiling * prediction.capture);
     if offset.capture == 0.0 {
         return plain;
     }
     let odds = plain / (1.0 - plain) * offset.capture.clamp(-LARGEST_ODDS, LARGEST_ODDS).exp();
-    bounded(odds / (1.0 + odds))
+    visible_capture(odds / (1.0 + odds))
+}
+
+/// A probability of capture [1] away from 0 and 1, as it is scored.
+pub(super) fn visible_capture(probability: f64) -> f64 {
+    UNCERTAINTY + (1.0 - 2.0 * UNCERTAINTY) * probability
+}
+
+/// The log odds of a probability of capture [1], which is kept away from 0 and 1.
+pub(super) fn capture_odds(probability: f64) -> f64 {
+    let end = (-LARGEST_ODDS).exp();
+    let inside = probability.clamp(end, 1.0 - end);
+    (inside / (1.0 - inside)).ln()
 }
 
 /// The means over the draws of a row.

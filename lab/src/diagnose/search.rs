@@ -29,6 +29,11 @@ impl SearchAxis {
         Self { low, high, logarithmic: false, open: [true; 2] }
     }
 
+    /// An axis of factors.
+    pub fn logarithmic(low: f64, high: f64) -> Self {
+        Self { logarithmic: true, ..Self::linear(low, high) }
+    }
+
     /// Whether a coordinate is at an end beyond which the parameter could lie.
     pub fn is_at_end(self, at: f64) -> bool {
         (self.open[0] && at < AT_END) || (self.open[1] && at > 1.0 - AT_END)

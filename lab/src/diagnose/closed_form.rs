@@ -1,0 +1,360 @@
+//! Closed forms in the place of a free curve over one column: `e_n = a We^b` rather than eight heights.
+//!
+//! Every form of the library ([`FORMS`]) is fitted in each way in which it can act, and competes with the free curve by
+//! evidence (Schwarz 1978). Of `e_n` and `e_t` the sum of weighted squares is minimised: a form is linear in most of its
+//! parameters, which a least-squares solution gives for each place of the others (variable projection; Golub and Pereyra
+//! 1973). Captures have a threshold with a width, by the likelihood of the outcomes.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::curve::ColumnCurve;
+use super::evaluation::Evaluation;
+use super::likelihood::{capture_odds, visible_capture};
+use super::observable::Observable;
+use super::search::{SearchAxis, best_of, descend};
+use crate::dataset::ColumnValues;
+use nearwall::effect::{CurveForm, FORMS, FormInfo};
+
+/// Places of a nonlinear parameter at which fits begin: of one, and of each of two.
+const PLACES: [usize; 2] = [40, 16];
+/// Range of the exponent of a power [1].
+const EXPONENTS: [f64; 2] = [-4.0, 4.0];
+/// Range of the steepness of a threshold [1].
+const STEEPNESS: [f64; 2] = [1.0, 2000.0];
+/// A scale of the column may lie beyond its range by this factor [1].
+const BEYOND: f64 = 10.0;
+/// Iterations a parameter of a descent.
+const ITERATIONS: u64 = 40;
+/// Size of its first simplex.
+const SIMPLEX: f64 = 0.03;
+/// Least number of points of a form beyond its parameters.
+const LEAST_LEFT: usize = 2;
+
+/// A closed form over one column.
+#[derive(Debug, Clone)]
+pub(super) struct ClosedForm {
+    pub info: &'static FormInfo,
+    pub acts: CurveForm,
+    /// In the order of the form.
+    pub parameters: Vec<f64>,
+    /// Whether each parameter is fitted; others are at their defaults.
+    pub free: Vec<bool>,
+}
+
+/// A form with its criterion: minus the log likelihood plus half the logarithm of the number of readings a parameter.
+pub(super) type Rated = (ClosedForm, f64);
+
+impl ClosedForm {
+    /// The value at `x`, in the unit of the column; `None` where it has none.
+    pub fn value(&self, x: f64) -> Option<f64> {
+        Some(self.info.value(&self.parameters, x)).filter(|value| !value.is_nan())
+    }
+
+    /// Number of fitted parameters.
+    pub fn freedom(&self) -> f64 {
+        self.free.iter().filter(|free| **free).count() as f64
+    }
+
+    /// What it adds to a prediction; of capture to the log odds.
+    pub fn change(&self, x: f64, predicted: f64, observable: Observable) -> f64 {
+        let Some(value) = self.value(x) else { return 0.0 };
+        match observable {
+            Observable::Capture => capture_odds(value.clamp(0.0, 1.0)) - capture_odds(predicted),
+            _ => self.acts.apply(predicted, value) - predicted,
+        }
+    }
+
+    /// The same form fitted again.
+    pub fn again(&self, curve: &ColumnCurve, evaluation: &Evaluation<'_>) -> Option<Self> {
+        let points = Points::new(curve, evaluation)?;
+        let kind = Kind { info: self.info, acts: self.acts, free: self.free.clone() };
+        Some(points.fit(&kind)?.0)
+    }
+}
+
+/// All forms that can stand in the place of a curve, the best first; `sets` where a form may replace the prediction.
+pub(super) fn forms(curve: &ColumnCurve, evaluation: &Evaluation<'_>, sets: bool) -> Vec<Rated> {
+    let Some(points) = Points::new(curve, evaluation) else { return Vec::new() };
+    let mut all: Vec<Rated> = points.kinds(sets).iter().filter_map(|kind| points.fit(kind)).collect();
+    all.sort_by(|a, b| a.1.total_cmp(&b.1));
+    all
+}
+
+/// A form, how it acts, and which of its parameters are fitted.
+struct Kind {
+    info: &'static FormInfo,
+    acts: CurveForm,
+    free: Vec<bool>,
+}
+
+impl Kind {
+    /// The parameters in which the form is not linear, by place.
+    fn nonlinear(&self) -> Vec<usize> {
+        let names: &[&str] = match self.info.name {
+            "power" => &["b"],
+            "exponential" | "saturating" => &["x_0"],
+            "logistic" => &["x_0", "n"],
+            _ => &[],
+        };
+        (0..self.free.len()).filter(|place| names.contains(&self.info.parameters[*place].name)).collect()
+    }
+
+    /// The parameters at their defaults, 0 without one.
+    fn defaults(&self) -> Vec<f64> {
+        self.info.parameters.iter().map(|parameter| parameter.default.unwrap_or(0.0)).collect()
+    }
+}
+
+/// One reading over the column.
+struct Point {
+    /// Value of the column over [`Points::unit`] [1].
+    x: f64,
+    /// What a form has to give if it is added, multiplied, and set; of capture the share captured.
+    residual: f64,
+    predicted: f64,
+    /// One over the variance; of capture the number of impacts.
+    weight: f64,
+}
+
+/// The readings over the column of a curve.
+struct Points {
+    points: Vec<Point>,
+    observable: Observable,
+    /// The column is measured in this many of its units, so that no power of it is huge.
+    unit: f64,
+    /// Least and largest of the positive values, over [`Self::unit`].
+    range: [f64; 2],
+    /// Whether all values are positive, and whether none is negative.
+    positive: bool,
+    not_negative: bool,
+}
+
+impl Points {
+    fn new(curve: &ColumnCurve, evaluation: &Evaluation<'_>) -> Option<Self> {
+        let [(column, _)] = curve.form.sides.as_slice() else { return None };
+        let (data, observable) = (evaluation.data, curve.form.observable);
+        let covariate = data.covariates.get(*column)?;
+        let ColumnValues::Numbers(numbers) = &covariate.values else { return None };
+        let usable = |row: usize| !covariate.blank[row] && numbers[row].is_finite();
+        let points: Vec<Point> = match observable {
+            Observable::Capture => evaluation
+                .shares()
+                .filter(|(row, _)| usable(*row))
+                .map(|(row, [impacts, share])| Point { x: numbers[row], residual: share, predicted: 0.0, weight: impacts })
+                .collect(),
+            _ => {
+                let readings = evaluation.residuals(observable, true).into_iter();
+                let point = |one: super::smooth::WeightedResidual| Point {
+                    x: numbers[one.row],
+                    residual: one.residual,
+                    predicted: one.scale,
+                    weight: one.weight,
+                };
+                readings.filter(|one| usable(one.row)).map(point).collect()
+            }
+        };
+        Self::scaled(points, observable)
+    }
+
+    /// The points with their column in a unit near their middle.
+    fn scaled(mut points: Vec<Point>, observable: Observable) -> Option<Self> {
+        let mut positive: Vec<f64> = points.iter().map(|point| point.x).filter(|x| *x > 0.0).collect();
+        positive.sort_by(f64::total_cmp);
+        let unit = *positive.get(positive.len() / 2).unwrap_or(&1.0);
+        let range = [*positive.first().unwrap_or(&1.0) / unit, *positive.last().unwrap_or(&1.0) / unit];
+        let all_positive = positive.len() == points.len();
+        let not_negative = points.iter().all(|point| point.x >= 0.0);
+        points.iter_mut().for_each(|point| point.x /= unit);
+        let first = points.first()?.x;
+        let varies = points.iter().any(|point| point.x != first);
+        varies.then_some(Self { points, observable, unit, range, positive: all_positive, not_negative })
+    }
+
+    /// The forms to fit.
+    fn kinds(&self, sets: bool) -> Vec<Kind> {
+        let acts = match (self.observable, sets) {
+            (Observable::Capture, true) => vec![CurveForm::Set],
+            (Observable::Capture, false) => Vec::new(),
+            (_, true) => CurveForm::ALL.to_vec(),
+            (_, false) => CurveForm::OF_CURVES.to_vec(),
+        };
+        let is_offered = |form: &&FormInfo| match form.name {
+            "constant" => false,
+            "logistic" => self.not_negative && self.range[1] > self.range[0],
+            _ if self.observable == Observable::Capture => false,
+            "power" => self.positive,
+            "saturating" => self.not_negative,
+            _ => true,
+        };
+        let forms = FORMS.iter().filter(is_offered);
+        let of = |form: &'static FormInfo| acts.iter().flat_map(move |acts| variants(form, *acts));
+        forms.flat_map(of).collect()
+    }
+
+    /// The search ranges of the nonlinear parameters.
+    fn axes(&self, kind: &Kind) -> Vec<SearchAxis> {
+        let [low, high] = self.range;
+        let axis = |place: usize| match kind.info.parameters[place].name {
+            "b" => SearchAxis::linear(EXPONENTS[0], EXPONENTS[1]),
+            "n" => SearchAxis::logarithmic(STEEPNESS[0], STEEPNESS[1]),
+            _ if kind.info.name == "logistic" => SearchAxis::logarithmic(low, high),
+            _ => SearchAxis::logarithmic((high - low).max(low) / (2.0 * BEYOND), BEYOND * high),
+        };
+        kind.nonlinear().into_iter().map(axis).collect()
+    }
+
+    /// The best parameters of a form; `None` where there are too few points.
+    fn fit(&self, kind: &Kind) -> Option<Rated> {
+        let count = kind.free.iter().filter(|free| **free).count();
+        if self.points.len() < count + LEAST_LEFT {
+            return None;
+        }
+        let (parameters, misfit) = match self.observable {
+            Observable::Capture => self.fit_captures(kind)?,
+            _ => self.fit_readings(kind)?,
+        };
+        let number: f64 = match self.observable {
+            Observable::Capture => self.points.iter().map(|point| point.weight).sum(),
+            _ => self.points.len() as f64,
+        };
+        let form = ClosedForm { info: kind.info, acts: kind.acts, parameters: self.in_units(kind, parameters), free: kind.free.clone() };
+        Some((form, misfit + 0.5 * count as f64 * number.ln()))
+    }
+
+    /// Parameters with the column in its own unit.
+    fn in_units(&self, kind: &Kind, parameters: Vec<f64>) -> Vec<f64> {
+        let exponent = kind.nonlinear().first().map_or(0.0, |place| parameters[*place]);
+        let scaled = |(parameter, value): (&nearwall::effect::Parameter, f64)| match parameter.unit {
+            "input" => value * self.unit,
+            "1/input" => value / self.unit,
+            "1/input^b" => value * self.unit.powf(-exponent),
+            _ => value,
+        };
+        kind.info.parameters.iter().zip(parameters).map(scaled).collect()
+    }
+
+    /// Parameters and minus the log likelihood of `e_n` or `e_t` [nats], with a scatter that fits.
+    fn fit_readings(&self, kind: &Kind) -> Option<(Vec<f64>, f64)> {
+        let axes = self.axes(kind);
+        let nonlinear = kind.nonlinear();
+        let number = self.points.len() as f64;
+        let solved = |at: &[f64]| {
+            let mut parameters = kind.defaults();
+            let values = axes.iter().zip(at).map(|(axis, at)| axis.value(*at));
+            nonlinear.iter().zip(values).for_each(|(place, value)| parameters[*place] = value);
+            self.solve(kind, parameters)
+        };
+        let cost = |at: &[f64]| solved(at).map_or(f64::INFINITY, |(_, sum)| 0.5 * number * (sum / number).max(1e-12).ln());
+        if axes.is_empty() {
+            let (parameters, _) = solved(&[])?;
+            return Some((parameters, cost(&[])));
+        }
+        let steps = PLACES[axes.len().min(2) - 1];
+        let descents = best_of(cost, &grid(axes.len(), steps), 2).into_iter();
+        let descents = descents.map(|start| descend(cost, &start, SIMPLEX, ITERATIONS * axes.len() as u64));
+        let (at, least) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        let inside = axes.iter().zip(&at).all(|(axis, at)| !axis.is_at_end(*at));
+        let (parameters, _) = solved(&at).filter(|_| inside && least.is_finite())?;
+        Some((parameters, least))
+    }
+
+    /// The linear parameters by least squares, and the sum of weighted squares [1].
+    fn solve(&self, kind: &Kind, mut parameters: Vec<f64>) -> Option<(Vec<f64>, f64)> {
+        let nonlinear = kind.nonlinear();
+        let linear: Vec<usize> = (0..kind.free.len()).filter(|p| kind.free[*p] && !nonlinear.contains(p)).collect();
+        linear.iter().for_each(|place| parameters[*place] = 0.0);
+        let zero: Vec<f64> =
+            (0..parameters.len()).map(|p| if nonlinear.contains(&p) { parameters[p] } else { 0.0 }).collect();
+        let count = linear.len();
+        let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
+        let target = |point: &Point| match kind.acts {
+            CurveForm::Set => point.residual + point.predicted,
+            _ => point.residual,
+        };
+        let scale = |point: &Point| if kind.acts == CurveForm::Factor { point.predicted } else { 1.0 };
+        let mut square = 0.0;
+        let mut shapes = vec![0.0; count];
+        for point in &self.points {
+            let scale = scale(point);
+            let fixed = kind.info.value(&parameters, point.x);
+            let left = target(point) - scale * fixed;
+            for (shape, place) in shapes.iter_mut().zip(&linear) {
+                let mut one = zero.clone();
+                one[*place] = 1.0;
+                *shape = scale * kind.info.value(&one, point.x);
+            }
+            for i in 0..count {
+                right[i] += point.weight * shapes[i] * left;
+                (0..count).for_each(|j| normal[(i, j)] += point.weight * shapes[i] * shapes[j]);
+            }
+            square += point.weight * left * left;
+        }
+        let solution = normal.clone().cholesky()?.solve(&right);
+        let sum = square - 2.0 * solution.dot(&right) + (&normal * &solution).dot(&solution);
+        linear.iter().zip(solution.iter()).for_each(|(place, value)| parameters[*place] = *value);
+        (sum.is_finite() && parameters.iter().all(|value| value.is_finite())).then_some((parameters, sum.max(0.0)))
+    }
+
+    /// Parameters and minus the log likelihood of the outcomes [nats].
+    fn fit_captures(&self, kind: &Kind) -> Option<(Vec<f64>, f64)> {
+        let fits = [1.0, -1.0].map(|sign| self.fit_threshold(kind, sign));
+        fits.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
+    /// The same for a threshold that rises or falls.
+    fn fit_threshold(&self, kind: &Kind, sign: f64) -> Option<(Vec<f64>, f64)> {
+        let mut axes = self.axes(kind);
+        let mut places = kind.nonlinear();
+        let further = (0..kind.free.len()).filter(|p| kind.free[*p] && !places.contains(p)).collect::<Vec<_>>();
+        let starts = grid(axes.len(), PLACES[1]).into_iter().map(|mut at| {
+            at.extend(further.iter().map(|place| kind.info.parameters[*place].default.unwrap_or(0.0)));
+            at
+        });
+        let starts: Vec<Vec<f64>> = starts.collect();
+        axes.extend(further.iter().map(|_| SearchAxis::linear(0.0, 1.0)));
+        places.extend(further);
+        let parameters = |at: &[f64]| {
+            let mut parameters = kind.defaults();
+            for ((place, axis), at) in places.iter().zip(&axes).zip(at) {
+                let steep = kind.info.parameters[*place].name == "n";
+                parameters[*place] = axis.value(*at) * if steep { sign } else { 1.0 };
+            }
+            parameters
+        };
+        let cost = |at: &[f64]| self.surprise(kind, &parameters(at));
+        let descents = best_of(cost, &starts, 2).into_iter();
+        let descents = descents.map(|start| descend(cost, &start, SIMPLEX, ITERATIONS * axes.len() as u64));
+        let (at, least) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
+        least.is_finite().then(|| (parameters(&at), least))
+    }
+
+    /// Minus the log likelihood of the outcomes [nats].
+    fn surprise(&self, kind: &Kind, parameters: &[f64]) -> f64 {
+        let one = |point: &Point| {
+            let p = visible_capture(kind.info.value(parameters, point.x).clamp(0.0, 1.0));
+            -point.weight * (point.residual * p.ln() + (1.0 - point.residual) * (1.0 - p).ln())
+        };
+        self.points.iter().map(one).sum()
+    }
+}
+
+/// The form with its defaults kept, and with each and all of them fitted.
+fn variants(info: &'static FormInfo, acts: CurveForm) -> Vec<Kind> {
+    let optional: Vec<usize> =
+        (0..info.parameters.len()).filter(|place| info.parameters[*place].default.is_some()).collect();
+    let of = |mask: usize| {
+        let mut free = vec![true; info.parameters.len()];
+        optional.iter().enumerate().for_each(|(bit, place)| free[*place] = mask >> bit & 1 == 1);
+        Kind { info, acts, free }
+    };
+    (0..1 << optional.len()).map(of).collect()
+}
+
+/// The places of a grid with so many steps along each coordinate.
+fn grid(dimensions: usize, steps: usize) -> Vec<Vec<f64>> {
+    let place = |index: usize| {
+        let digit = |axis: usize| (index / steps.pow(axis as u32)) % steps;
+        (0..dimensions).map(|axis| (digit(axis) as f64 + 0.5) / steps as f64).collect()
+    };
+    (0..steps.pow(dimensions as u32)).map(place).collect()
+}
