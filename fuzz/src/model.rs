@@ -8,13 +8,14 @@ use super::place;
 const FILE: &str = "m.toml";
 
 /// Models that are accepted, with all laws and effects.
-const WHOLE_MODEL: [&str; 6] = [
+const WHOLE_MODEL: [&str; 7] = [
     include_str!("../../tutorials/slaggingGasifier/constant/nearWall.toml"),
     include_str!("../../tutorials/standalone/waxRig.model.toml"),
     include_str!("../../tutorials/standalone/tungstenDust.model.toml"),
     include_str!("models/own-materials.toml"),
     include_str!("models/effects.toml"),
     include_str!("models/droplet.toml"),
+    include_str!("models/groups.toml"),
 ];
 
 /// Any text is refused with its place, or is a model that decides every impact or says why not.

@@ -178,3 +178,41 @@ fn a_batch_takes_an_array_for_each_input() {
     let wrong = [0.1, 0.2, f64::INFINITY];
     assert_eq!(resolve([wrong.as_ptr(), null()]), Err((NW_BAD_STATE, 2)));
 }
+
+/// Groups and forms are computed by the library: the caller gives inputs alone. At 5 m/s and 0.03 N/m, We = 100:
+/// e_n = 2/sqrt(100); the capture is half at pi_1 = 100.
+#[test]
+fn groups_and_forms_have_the_bits_of_the_library() {
+    let plain = MODEL.split("[inputs.").next().unwrap();
+    let form = |input: &str, on: &str, rest: &str| {
+        format!("[[effects]]\nkind = \"fitted-form\"\ninput = \"{input}\"\non = \"{on}\"\n{rest}\n")
+    };
+    let text = format!(
+        "{plain}[inputs.sigma_p]\ndefault = 0.03\n\
+         [groups]\npi_1 = {{ rho_p = 1, v_n = 2, d = 1, sigma_p = -1 }}\n{}{}",
+        form("We", "e_n", "form = \"power\"\na = 2\nb = -0.5"),
+        form("pi_1", "capture", "form = \"logistic\"\nx_0 = 100\nn = 4"),
+    );
+    let rust = nearwall::Model::from_toml("m", &text).unwrap();
+    let calls = Calls::load();
+    let model = calls.parse(&text);
+    let mut impact = nw_impact { v_n: 5.0, v_t: 1.0, d: 120e-6, T_p: 393.15, ..nw_impact::default() };
+    let mut same = nearwall::Impact {
+        normal_speed: 5.0,
+        diameter: 120e-6,
+        particle_temperature: 393.15,
+        ..Default::default()
+    };
+    same.tangential_speed = 1.0;
+    for (tension, by_hand) in [(f64::NAN, Some([0.2, 0.5])), (0.05, None), (0.4, None)] {
+        (impact.extra[0], same.extra[0]) = (tension, tension);
+        let found = calls.resolve(model, &impact).unwrap();
+        let expected = rust.resolve(0, &same, nearwall::ImpactRng::default()).unwrap();
+        assert_eq!(found.e_n.to_bits(), expected.normal_restitution.to_bits());
+        assert_eq!(found.p_stick.to_bits(), expected.sticking_probability.to_bits());
+        if let Some([e_n, p_stick]) = by_hand {
+            assert!((found.e_n - e_n).abs() < 1e-12 && (found.p_stick - p_stick).abs() < 1e-12);
+        }
+    }
+    calls.free(model);
+}

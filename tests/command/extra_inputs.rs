@@ -173,3 +173,29 @@ fn measured_data_state_declared_inputs() {
         data.notes
     );
 }
+
+/// At We = 1000 · 25 · 120e-6/0.03 = 100 the curve is half way up from 0 to 0.2, and the form is 2/sqrt(100).
+#[test]
+fn predict_and_explain_compute_groups() {
+    let model = "[inputs.sigma_p]\ndefault = 0.03\n[[effects]]\nkind = \"fitted-form\"\ninput = \"We\"\non = \"e_t\"\n\
+                form = \"power\"\na = 2\nb = -0.5\nvalid = { We = [1, 150] }\n[[effects]]\nkind = \"fitted-curve\"\n\
+                input = \"We\"\non = \"e_t\"\nknots = [50, 150]\nvalues = [0, 0.2]\n";
+    let rows = "v_n,d,T_p,sigma_p\n5,120e-6,393.15,\n5,120e-6,393.15,0.06\n5,120e-6,393.15,0.012\n";
+    let folder = folder(&[("m.toml", &format!("{WAX}{model}")), ("i.csv", rows)]);
+    let output = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv"]);
+    let table = text(&output.stdout);
+    let mut lines = table.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let heads = lines.next().unwrap();
+    let place = |name: &str| heads.iter().position(|head| *head == name).unwrap();
+    for (row, expected) in lines.by_ref().zip([0.3, 2.0 / 50_f64.sqrt(), 2.0 / 250_f64.sqrt() + 0.2]) {
+        let e_t: f64 = row[place("e_t")].parse().unwrap();
+        assert!((e_t - expected).abs() < 1e-6, "{e_t} against {expected}: {table}");
+    }
+    assert!(table.contains("fitted-form is stated for We 1 to 150"), "{table}");
+    let explained = nearwall(folder.path(), &["predict", "--model", "m.toml", "i.csv", "--explain", "2"]);
+    let lines = text(&explained.stdout);
+    let steps: Vec<&str> = lines.lines().filter(|line| line.starts_with("fitted-")).collect();
+    assert!(steps.iter().any(|line| line.contains(" We ") && line.ends_with("100.000000")), "{lines}");
+    let checked = text(&nearwall(folder.path(), &["check", "m.toml"]).stdout);
+    assert!(checked.contains("e_t = f, f = a x^b, a = 2, b = -0.5, x = We"), "{checked}");
+}

@@ -1,4 +1,4 @@
-//! The library: the golden table, independent oracles, effects, fitted curves, listed laws,
+//! The library: the golden table, independent oracles, effects, fitted curves, groups, listed laws,
 //! measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links in the
 //! documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
@@ -17,6 +17,7 @@ mod droplet;
 mod effects;
 mod fitted_curves;
 mod golden;
+mod groups;
 mod interface;
 mod laws;
 mod oblique_impact;
