@@ -17,6 +17,8 @@ use nearwall::effect::{CurveForm, FORMS, FormInfo};
 
 /// Places of a nonlinear parameter at which fits begin: of one, and of each of two.
 const PLACES: [usize; 2] = [40, 16];
+/// Places of each parameter of a threshold on the grid of its intervals.
+const FINE_PLACES: usize = 80;
 /// Range of the exponent of a power [1].
 const EXPONENTS: [f64; 2] = [-4.0, 4.0];
 /// Range of the steepness of a threshold [1].
@@ -80,6 +82,37 @@ pub(super) fn forms(curve: &ColumnCurve, evaluation: &Evaluation<'_>, sets: bool
     all
 }
 
+/// The 95 % interval of each parameter of a form, NaN for one that is not fitted. `with` has the curve in its offsets,
+/// `quantile` is that of Student's t.
+pub(super) fn intervals(
+    curve: &ColumnCurve,
+    closed: &ClosedForm,
+    with: &Evaluation<'_>,
+    quantile: f64,
+) -> Vec<[f64; 2]> {
+    let nothing = || vec![[f64::NAN; 2]; closed.parameters.len()];
+    let Some(points) = Points::new(curve, with) else { return nothing() };
+    let found = match curve.form.observable {
+        Observable::Capture => Some(points.credible(closed)),
+        _ => points.standard_errors(closed).map(|errors| symmetric(closed, &errors, quantile)),
+    };
+    found.unwrap_or_else(nothing)
+}
+
+/// Intervals from standard errors; of a positive scale in its logarithm.
+fn symmetric(closed: &ClosedForm, errors: &[f64], quantile: f64) -> Vec<[f64; 2]> {
+    let one = |(place, (value, error)): (usize, (&f64, &f64))| {
+        let is_scale = ["input", "1/input^b"].contains(&closed.info.parameters[place].unit) && *value > 0.0;
+        let reach = quantile * error;
+        if is_scale {
+            [-1.0, 1.0].map(|sign| value * (sign * reach / value).exp())
+        } else {
+            [value - reach, value + reach]
+        }
+    };
+    closed.parameters.iter().zip(errors).enumerate().map(one).collect()
+}
+
 /// A form, how it acts, and which of its parameters are fitted.
 struct Kind {
     info: &'static FormInfo,
@@ -140,7 +173,12 @@ impl Points {
             Observable::Capture => evaluation
                 .shares()
                 .filter(|(row, _)| usable(*row))
-                .map(|(row, [impacts, share])| Point { x: numbers[row], residual: share, predicted: 0.0, weight: impacts })
+                .map(|(row, [impacts, share])| Point {
+                    x: numbers[row],
+                    residual: share,
+                    predicted: 0.0,
+                    weight: impacts,
+                })
                 .collect(),
             _ => {
                 let readings = evaluation.residuals(observable, true).into_iter();
@@ -172,10 +210,14 @@ impl Points {
 
     /// The forms to fit.
     fn kinds(&self, sets: bool) -> Vec<Kind> {
+        // Where the prediction is the same everywhere, what replaces it does what additions and factors do.
+        let same = self.points.iter().all(|point| point.predicted == self.points[0].predicted);
         let acts = match (self.observable, sets) {
-            (Observable::Capture, true) => vec![CurveForm::Set],
             (Observable::Capture, false) => Vec::new(),
-            (_, true) => CurveForm::ALL.to_vec(),
+            (Observable::Capture, true) => vec![CurveForm::Set],
+            (_, true) if same => vec![CurveForm::Set],
+            (_, false) if same => vec![CurveForm::Add],
+            (_, true) => vec![CurveForm::Set, CurveForm::Add, CurveForm::Factor],
             (_, false) => CurveForm::OF_CURVES.to_vec(),
         };
         let is_offered = |form: &&FormInfo| match form.name {
@@ -198,7 +240,8 @@ impl Points {
             "b" => SearchAxis::linear(EXPONENTS[0], EXPONENTS[1]),
             "n" => SearchAxis::logarithmic(STEEPNESS[0], STEEPNESS[1]),
             _ if kind.info.name == "logistic" => SearchAxis::logarithmic(low, high),
-            _ => SearchAxis::logarithmic((high - low).max(low) / (2.0 * BEYOND), BEYOND * high),
+            _ if self.positive => SearchAxis::logarithmic(low, BEYOND * high),
+            _ => SearchAxis::logarithmic(high / 50.0, BEYOND * high),
         };
         kind.nonlinear().into_iter().map(axis).collect()
     }
@@ -217,7 +260,12 @@ impl Points {
             Observable::Capture => self.points.iter().map(|point| point.weight).sum(),
             _ => self.points.len() as f64,
         };
-        let form = ClosedForm { info: kind.info, acts: kind.acts, parameters: self.in_units(kind, parameters), free: kind.free.clone() };
+        let form = ClosedForm {
+            info: kind.info,
+            acts: kind.acts,
+            parameters: self.in_units(kind, parameters),
+            free: kind.free.clone(),
+        };
         Some((form, misfit + 0.5 * count as f64 * number.ln()))
     }
 
@@ -244,7 +292,9 @@ impl Points {
             nonlinear.iter().zip(values).for_each(|(place, value)| parameters[*place] = value);
             self.solve(kind, parameters)
         };
-        let cost = |at: &[f64]| solved(at).map_or(f64::INFINITY, |(_, sum)| 0.5 * number * (sum / number).max(1e-12).ln());
+        let cost = |at: &[f64]| {
+            solved(at).map_or(f64::INFINITY, |(_, sum)| 0.5 * number * (sum / number).max(1e-12).ln())
+        };
         if axes.is_empty() {
             let (parameters, _) = solved(&[])?;
             return Some((parameters, cost(&[])));
@@ -261,7 +311,8 @@ impl Points {
     /// The linear parameters by least squares, and the sum of weighted squares [1].
     fn solve(&self, kind: &Kind, mut parameters: Vec<f64>) -> Option<(Vec<f64>, f64)> {
         let nonlinear = kind.nonlinear();
-        let linear: Vec<usize> = (0..kind.free.len()).filter(|p| kind.free[*p] && !nonlinear.contains(p)).collect();
+        let linear: Vec<usize> =
+            (0..kind.free.len()).filter(|p| kind.free[*p] && !nonlinear.contains(p)).collect();
         linear.iter().for_each(|place| parameters[*place] = 0.0);
         let zero: Vec<f64> =
             (0..parameters.len()).map(|p| if nonlinear.contains(&p) { parameters[p] } else { 0.0 }).collect();
@@ -292,7 +343,8 @@ impl Points {
         let solution = normal.clone().cholesky()?.solve(&right);
         let sum = square - 2.0 * solution.dot(&right) + (&normal * &solution).dot(&solution);
         linear.iter().zip(solution.iter()).for_each(|(place, value)| parameters[*place] = *value);
-        (sum.is_finite() && parameters.iter().all(|value| value.is_finite())).then_some((parameters, sum.max(0.0)))
+        (sum.is_finite() && parameters.iter().all(|value| value.is_finite()))
+            .then_some((parameters, sum.max(0.0)))
     }
 
     /// Parameters and minus the log likelihood of the outcomes [nats].
@@ -305,7 +357,8 @@ impl Points {
     fn fit_threshold(&self, kind: &Kind, sign: f64) -> Option<(Vec<f64>, f64)> {
         let mut axes = self.axes(kind);
         let mut places = kind.nonlinear();
-        let further = (0..kind.free.len()).filter(|p| kind.free[*p] && !places.contains(p)).collect::<Vec<_>>();
+        let further =
+            (0..kind.free.len()).filter(|p| kind.free[*p] && !places.contains(p)).collect::<Vec<_>>();
         let starts = grid(axes.len(), PLACES[1]).into_iter().map(|mut at| {
             at.extend(further.iter().map(|place| kind.info.parameters[*place].default.unwrap_or(0.0)));
             at
@@ -336,6 +389,83 @@ impl Points {
         };
         self.points.iter().map(one).sum()
     }
+}
+
+impl Points {
+    /// Standard errors of the fitted parameters, NaN of others, about a fit whose residuals these points are. Readings
+    /// that scatter more than their weights say widen them (sandwich covariance).
+    fn standard_errors(&self, closed: &ClosedForm) -> Option<Vec<f64>> {
+        let free: Vec<usize> = (0..closed.free.len()).filter(|place| closed.free[*place]).collect();
+        let count = free.len();
+        let (mut normal, mut outer) =
+            (DMatrix::<f64>::zeros(count, count), DMatrix::<f64>::zeros(count, count));
+        for point in &self.points {
+            let scale = if closed.acts == CurveForm::Factor { point.predicted } else { 1.0 };
+            let slope = |place: &usize| scale * self.slope(closed, *place, point.x * self.unit);
+            let slopes = DVector::from_iterator(count, free.iter().map(slope));
+            let product = &slopes * slopes.transpose();
+            outer += &product * (point.weight * point.residual).powi(2);
+            normal += product * point.weight;
+        }
+        let inverse = normal.cholesky()?.inverse();
+        let sandwich = &inverse * outer * &inverse;
+        let mut errors = vec![f64::NAN; closed.free.len()];
+        for (row, place) in free.into_iter().enumerate() {
+            errors[place] = inverse[(row, row)].max(sandwich[(row, row)]).sqrt();
+        }
+        Some(errors)
+    }
+
+    /// Slope of the value by a parameter.
+    fn slope(&self, closed: &ClosedForm, place: usize, x: f64) -> f64 {
+        let step = 1e-6 * closed.parameters[place].abs().max(1e-6);
+        let at = |sign: f64| {
+            let mut moved = closed.parameters.clone();
+            moved[place] += sign * step;
+            closed.info.value(&moved, x)
+        };
+        (at(1.0) - at(-1.0)) / (2.0 * step)
+    }
+
+    /// Intervals of the place and the steepness of a threshold of captures, from their probability on a grid.
+    fn credible(&self, closed: &ClosedForm) -> Vec<[f64; 2]> {
+        let kind = Kind { info: closed.info, acts: closed.acts, free: closed.free.clone() };
+        let (axes, places) = (self.axes(&kind), kind.nonlinear());
+        let grid = grid(axes.len(), FINE_PLACES);
+        let parameters = |at: &[f64]| {
+            let mut parameters = closed.parameters.clone();
+            for ((place, axis), at) in places.iter().zip(&axes).zip(at) {
+                parameters[*place] = axis.value(*at).copysign(closed.parameters[*place]);
+            }
+            parameters
+        };
+        let costs: Vec<f64> = grid.iter().map(|at| self.surprise(&kind, &parameters(at))).collect();
+        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+        let weights: Vec<f64> = costs.iter().map(|cost| (least - cost).exp()).collect();
+        let mut ends = vec![[f64::NAN; 2]; closed.parameters.len()];
+        for place in &places {
+            let values = grid.iter().map(|at| parameters(at)[*place]);
+            let unit = if kind.info.parameters[*place].unit == "input" { self.unit } else { 1.0 };
+            ends[*place] = middle(values.zip(weights.iter().copied())).map(|end| end * unit);
+        }
+        ends
+    }
+}
+
+/// The middle 95 % of weighted values.
+fn middle(values: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
+    let mut sorted: Vec<(f64, f64)> = values.collect();
+    sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let total: f64 = sorted.iter().map(|(_, weight)| weight).sum();
+    let end = |share: f64| {
+        let mut sum = 0.0;
+        let reached = sorted.iter().find(|(_, weight)| {
+            sum += weight;
+            sum >= share * total
+        });
+        reached.map_or(f64::NAN, |(value, _)| *value)
+    };
+    [end(0.025), end(0.975)]
 }
 
 /// The form with its defaults kept, and with each and all of them fitted.

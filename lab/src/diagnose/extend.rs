@@ -239,7 +239,8 @@ pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable)
 
 /// The range of every input that varies in the fitted rows.
 fn valid(data: &DataSplit) -> InlineTable {
-    let inputs = data.covariates.iter().filter(|c| c.is_input() && matches!(c.values, ColumnValues::Numbers(_)));
+    let inputs =
+        data.covariates.iter().filter(|c| c.is_input() && matches!(c.values, ColumnValues::Numbers(_)));
     ranges(inputs.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))))
 }
 

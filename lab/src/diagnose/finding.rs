@@ -7,14 +7,16 @@ use super::candidate::{Addition, ScoredCandidate};
 use super::choice::CauseChoice;
 use super::curve::ColumnCurve;
 use super::explanations::FoundExplanation;
+use super::form_finding;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
 use super::reach::Reach;
-use super::record::{Calibration, CauseCurve, CauseSurface, Finding, NextMeasurement};
+use super::record::{Calibration, CauseCurve, CauseForm, CauseSurface, Finding, NextMeasurement};
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 use nearwall::effect::EFFECTS;
+use nearwall::group::GROUPS;
 
 /// Builds findings from the final fit.
 pub(super) struct FindingBuilder<'a> {
@@ -65,6 +67,9 @@ impl FindingBuilder<'_> {
             let other = self.alone(self.choice.addition(rival)?);
             advise([&self.alone(winner), &other], [&cause, rival], self.reach)
         };
+        let found = self.final_curve(winner).and_then(|curve| form_finding::found(self.hypothesis, curve));
+        let (form, estimates) = found.map_or((None, Vec::new()), |(form, estimates)| (Some(form), estimates));
+        let part = self.final_part(&cause).into_iter().flat_map(FittedPart::estimates);
         let mut finding = Finding {
             observable: observable.name(),
             variables: winner.addition.variables(self.hypothesis.data),
@@ -77,11 +82,12 @@ impl FindingBuilder<'_> {
             not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
             p_value: winner.p_value,
             q_value: winner.q_value,
-            parameters: self.final_part(&cause).into_iter().flat_map(FittedPart::estimates).collect(),
+            parameters: part.chain(estimates).collect(),
             alternatives: explanations.alternatives(&cause),
             measure_next: rivals.iter().filter_map(&advice).collect(),
             indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
+            form,
             surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
             explanation: String::new(),
             cause,
@@ -153,6 +159,9 @@ impl FindingBuilder<'_> {
     /// A curve of one column for the page.
     fn curve(&self, fitted: &ColumnCurve) -> Option<CauseCurve> {
         let [side] = fitted.form.sides.as_slice() else { return None };
+        if fitted.closed.is_some() {
+            return None;
+        }
         let adds = fitted.heights.iter().map(|height| rounded(*height)).collect();
         Some(CauseCurve { factor: fitted.form.multiplicative, at: self.places(side), adds })
     }
@@ -184,17 +193,38 @@ pub(super) fn sigma(p_value: f64) -> f64 {
     if p < 1e-12 { far } else { Normal::standard().inverse_cdf(1.0 - p) }
 }
 
+/// A closed form in a sentence.
+fn equation(form: &CauseForm) -> String {
+    let mut text = format!(" Its form: {}", form.equation);
+    if let [first, ..] = form.others.as_slice() {
+        text += &format!(
+            " (probability {:.2} among forms; {} {:.2})",
+            form.probability, first.form, first.probability
+        );
+    }
+    text += ".";
+    if let Some(law) = form.resembles {
+        text += &format!(" It looks like {law}.");
+    }
+    text
+}
+
 /// The explanation of a finding for a reader.
 fn explain(finding: &Finding, observable: Observable) -> String {
     let Finding { cause, variables, indistinguishable_from, .. } = finding;
     let quantity = observable.title();
     if cause.starts_with("unknown:") {
         let columns = variables.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
-        let noun = if columns.len() > 1 { "columns" } else { "column" };
-        return format!(
-            "The {quantity} depends on the {noun} {}. No effect of the library explains this dependence.",
-            columns.join(" and ")
+        let group = variables.first().and_then(|name| GROUPS.iter().find(|group| group.name == name));
+        let noun = match group {
+            Some(group) => format!("group {} = {}", group.name, group.formula),
+            None if columns.len() > 1 => format!("columns {}", columns.join(" and ")),
+            None => format!("column {}", columns.join("")),
+        };
+        let text = format!(
+            "The {quantity} depends on the {noun}. No effect of the library explains this dependence."
         );
+        return finding.form.as_ref().map_or(text.clone(), |form| text + &equation(form));
     }
     let about = EFFECTS.iter().find(|effect| effect.id == cause).map_or("", |effect| effect.about);
     let mut text = format!("The effect `{cause}` is significant for the {quantity}: {about}.");

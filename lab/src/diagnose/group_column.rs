@@ -35,7 +35,8 @@ pub(super) fn group_columns(
         let group = &GROUPS[place];
         let is_new = |values: &Vec<f64>| {
             let others = known.iter().chain(&found);
-            others.clone().all(|other| other.name != group.name) && !others.into_iter().any(|one| orders(one, values))
+            others.clone().all(|other| other.name != group.name)
+                && !others.into_iter().any(|one| orders(one, values))
         };
         let values = values(&model, data, &stated, CurveInput::Group(place), lacks);
         if let Some(values) = values.filter(is_new) {

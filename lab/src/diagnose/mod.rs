@@ -28,6 +28,7 @@ mod finding;
 mod fitted_rows;
 mod fitting;
 mod forecast;
+mod form_finding;
 mod gain;
 mod goodness_of_fit;
 mod ground;
@@ -64,9 +65,9 @@ mod verdict;
 pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use reach::{Reach, ReachError};
 pub use record::{
-    Alternative, Calibration, CauseCurve, CauseSurface, DataView, Diagnosis, Errors, Estimate,
+    Alternative, Calibration, CauseCurve, CauseForm, CauseSurface, DataView, Diagnosis, Errors, Estimate,
     ExplanationFound, Finding, Fit, FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement,
-    NotExamined, Options, Rival, Rows, Sample, SampleRow, ScatterFound, Unexplained,
+    NotExamined, Options, OtherForm, Rival, Rows, Sample, SampleRow, ScatterFound, Unexplained,
 };
 pub use unselected::read_measurements;
 

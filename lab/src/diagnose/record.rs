@@ -180,6 +180,8 @@ pub struct Finding {
     pub measure_next: Vec<NextMeasurement>,
     /// The fitted curve, for a column that no effect explains.
     pub curve: Option<CauseCurve>,
+    /// The closed form in its place, if the data bear one.
+    pub form: Option<CauseForm>,
     /// The surface, if this is an unknown dependence on two columns.
     pub surface: Option<CauseSurface>,
     /// The finding in a few sentences.
@@ -238,6 +240,32 @@ pub struct CauseCurve {
     pub at: Vec<String>,
     /// Its heights there: added to the observable, as a share of it if `factor`, in log odds for capture.
     pub adds: Vec<f64>,
+}
+
+/// A closed form over a column.
+#[derive(Debug, Clone, Serialize)]
+pub struct CauseForm {
+    /// Its name in model files.
+    pub form: &'static str,
+    /// Whether it replaces the prediction (`set`), is added to it (`add`) or to 1 in a factor on it (`factor`).
+    pub acts: &'static str,
+    /// The equation with numbers; `base` is the prediction of the base model.
+    pub equation: String,
+    /// Probability among the forms [1], each with equal odds before the data.
+    pub probability: f64,
+    /// The other forms that the data leave open, the most probable first.
+    pub others: Vec<OtherForm>,
+    /// The law that it resembles.
+    pub resembles: Option<&'static str>,
+}
+
+/// Another form.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct OtherForm {
+    /// Its name in model files.
+    pub form: &'static str,
+    /// Its probability [1].
+    pub probability: f64,
 }
 
 /// A fitted surface over two columns.

@@ -7,7 +7,7 @@ use super::axis::ColumnAxis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
 use super::{cause_title, curve, probability, spread, usage};
 use crate::diagnose::{Alternative, CauseSurface, Diagnosis, Estimate, Finding};
-use nearwall::effect::EFFECTS;
+use nearwall::effect::{EFFECTS, FormInfo};
 
 /// A law whose lack of fit is less likely than this has another shape than the data.
 const MISSHAPEN: f64 = 0.01;
@@ -100,8 +100,11 @@ fn shape(p_value: f64) -> String {
 
 pub(in crate::report) fn parameters(finding: &Finding) -> Table {
     let effect = EFFECTS.iter().find(|kind| kind.id == finding.cause);
+    let form = finding.form.as_ref().and_then(|form| FormInfo::from_name(form.form));
+    let of_effect = effect.map(|effect| effect.parameters);
+    let known = of_effect.or_else(|| form.map(|form| form.parameters)).unwrap_or_default();
     let about = |name: &str| {
-        let parameter = effect.and_then(|effect| effect.parameters.iter().find(|known| known.name == name));
+        let parameter = known.iter().find(|known| known.name == name);
         parameter.map_or("", |parameter| parameter.about)
     };
     let row = |(name, estimate): (&&'static str, &Estimate)| {
