@@ -40,8 +40,9 @@
 //!    `e_t` are then referred to the mean wall again, if an effect tilted it.
 //! 6. [`capture`] again: the probability of capture. On a wall with slag or powder it is the mean
 //!    over the covered and the bare share; a random draw decides which of them gives `e_n` and `e_t`.
-//! 7. Fitted corrections ([`effect::FittedCurve`]) of `e_n`, `e_t` and the probability, where a
-//!    model has them; then the random draw ([`rng`]) decides whether the particle stays.
+//! 7. Fitted corrections ([`effect::FittedCurve`], [`effect::FittedForm`]) of `e_n`, `e_t` and the
+//!    probability, over inputs and dimensionless groups ([`group`]), where a model has them; then the
+//!    random draw ([`rng`]) decides whether the particle stays.
 //! 8. [`Outcome`]: `e_n`, `e_t`, spin, probability, regime, and whether a law was used outside its stated range.
 //!
 //! An [`effect`] is a named, removable term that acts on some of these steps.

@@ -289,7 +289,7 @@ fn a_declared_input_goes_before_a_group_of_its_name() {
 fn a_range_may_name_a_group() {
     let text = "[groups]\ninverse = { v_n = -1 }\n[[effects]]\nkind = \"level-shift\"\non = \"e_t\"\nvalue = 0.1\n\
                 valid = { We = [0.1, 30], inverse = [0.3, 10] }\n";
-    let law = "[[effects]]\nkind = \"yield-ratio\"\nvalue = 0.7\nvalid = { We = [0.1, 30] }\n";
+    let law = "[[effects]]\nkind = \"yield-ratio\"\nratio = 0.7\nvalid = { We = [0.1, 30] }\n";
     let said = |text: &str, impact: &Impact| -> (bool, Vec<String>) {
         let model = model(text);
         let beyond = model.beyond(0, impact).unwrap();
@@ -310,7 +310,7 @@ fn a_range_may_name_a_group() {
     );
     let inverse = text.replace("We = [0.1, 30], ", "");
     assert_eq!(said(&inverse, &cold(1.0)), (false, Vec::new()));
-    assert_eq!(said(&inverse, &cold(5.0)).0, true);
+    assert!(said(&inverse, &cold(5.0)).0);
     // On a wall with covered and bare share the reason is given once.
     let covered =
         read(&(PLAIN.replace("\"pyrex\"", "\"pyrex\"\npowder = \"montan-wax\"\ncoverage = 0.4") + text));
