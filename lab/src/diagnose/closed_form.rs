@@ -16,7 +16,7 @@ use crate::dataset::ColumnValues;
 use nearwall::effect::{CurveForm, FORMS, FormInfo};
 
 /// Places of a nonlinear parameter at which fits begin: of one, and of each of two.
-const PLACES: [usize; 2] = [40, 16];
+const PLACES: [usize; 2] = [40, 12];
 /// Places of each parameter of a threshold on the grid of its intervals.
 const FINE_PLACES: usize = 80;
 /// Range of the exponent of a power [1].

@@ -94,21 +94,31 @@ impl ColumnCurveForm {
             return Some(ColumnCurve::constant(self, constant));
         }
         let mut fitted: Option<Smoothed> = None;
+        // Where captures are apart from rebounds the rounds overshoot: the best one counts.
+        let mut best: (f64, Option<Smoothed>) = (f64::NEG_INFINITY, None);
         let height = |fitted: &Option<Smoothed>, row: usize| {
-            fitted.as_ref().map_or(constant, |fit| sum(&self.entry(evaluation.data, row), &fit.heights))
+            let height =
+                fitted.as_ref().map_or(constant, |fit| sum(&self.entry(evaluation.data, row), &fit.heights));
+            height.clamp(-WIDEST_ODDS, WIDEST_ODDS)
         };
-        for _ in 0..ROUNDS {
+        for round in 0..=ROUNDS {
             let mut offsets = evaluation.offsets.to_vec();
             for &row in evaluation.rows.iter() {
-                offsets[row].capture += height(&fitted, row).clamp(-WIDEST_ODDS, WIDEST_ODDS);
+                offsets[row].capture += height(&fitted, row);
             }
-            let mut points = evaluation.with_offsets(offsets).residuals(self.observable, false);
-            for point in &mut points {
-                point.residual += height(&fitted, point.row).clamp(-WIDEST_ODDS, WIDEST_ODDS);
+            let moved = evaluation.with_offsets(offsets);
+            let score = moved.score();
+            if round > 0 && score > best.0 {
+                best = (score, fitted.clone());
             }
+            if round == ROUNDS {
+                break;
+            }
+            let mut points = moved.residuals(self.observable, false);
+            points.iter_mut().for_each(|point| point.residual += height(&fitted, point.row));
             fitted = Some(self.smooth(evaluation, &points)?);
         }
-        let Smoothed { heights, freedom } = fitted?;
+        let Smoothed { heights, freedom } = best.1?;
         Some(ColumnCurve { form: self, heights, freedom, closed: None })
     }
 }

@@ -233,7 +233,8 @@ impl<'a> CandidateRound<'a> {
 
     /// A curve with its gain [nats], or the closed form that has more evidence.
     fn closed_or_free(&self, (gain, free): (f64, ColumnCurve)) -> ColumnCurve {
-        if gain < PROMISING_GAIN {
+        // A free curve of capture misses a threshold that a few captures show.
+        if gain < PROMISING_GAIN && free.form.observable != Observable::Capture {
             return free;
         }
         let readings = self.search.residuals(free.form.observable, false).len().max(2) as f64;
