@@ -67,8 +67,8 @@ impl FindingBuilder<'_> {
             let other = self.alone(self.choice.addition(rival)?);
             advise([&self.alone(winner), &other], [&cause, rival], self.reach)
         };
-        let found = self.final_curve(winner).and_then(|curve| form_finding::found(self.hypothesis, curve));
-        let (form, estimates) = found.map_or((None, Vec::new()), |(form, estimates)| (Some(form), estimates));
+        let form = self.final_curve(winner).and_then(|curve| form_finding::found(self.hypothesis, curve));
+        let estimates = form.iter().flat_map(|form| form.parameters.clone()).collect::<Vec<_>>();
         let part = self.final_part(&cause).into_iter().flat_map(FittedPart::estimates);
         let mut finding = Finding {
             observable: observable.name(),
@@ -87,7 +87,7 @@ impl FindingBuilder<'_> {
             measure_next: rivals.iter().filter_map(&advice).collect(),
             indistinguishable_from: rivals,
             curve: self.final_curve(winner).and_then(|curve| self.curve(curve)),
-            form,
+            forms: form.into_iter().collect(),
             surface: self.final_curve(winner).and_then(|curve| self.surface(curve)),
             explanation: String::new(),
             cause,
@@ -193,6 +193,14 @@ pub(super) fn sigma(p_value: f64) -> f64 {
     if p < 1e-12 { far } else { Normal::standard().inverse_cdf(1.0 - p) }
 }
 
+impl Finding {
+    /// Adds what the same cause does to another observable.
+    pub(super) fn join(&mut self, other: Self) {
+        self.explanation += &other.forms.iter().map(equation).collect::<String>();
+        self.forms.extend(other.forms);
+    }
+}
+
 /// A closed form in a sentence.
 fn equation(form: &CauseForm) -> String {
     let mut text = format!(" Its form: {}", form.equation);
@@ -224,7 +232,7 @@ fn explain(finding: &Finding, observable: Observable) -> String {
         let text = format!(
             "The {quantity} depends on the {noun}. No effect of the library explains this dependence."
         );
-        return finding.form.as_ref().map_or(text.clone(), |form| text + &equation(form));
+        return finding.forms.iter().fold(text, |text, form| text + &equation(form));
     }
     let about = EFFECTS.iter().find(|effect| effect.id == cause).map_or("", |effect| effect.about);
     let mut text = format!("The effect `{cause}` is significant for the {quantity}: {about}.");

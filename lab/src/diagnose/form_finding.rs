@@ -70,23 +70,11 @@ const RESEMBLANCES: [Resemblance; 11] = [
     ),
 ];
 
-/// The form of a curve after the final fit, with its parameters; `None` for a free curve.
-pub(super) fn found(
-    hypothesis: &Hypothesis<'_>,
-    curve: &ColumnCurve,
-) -> Option<(CauseForm, Vec<(&'static str, Estimate)>)> {
+/// The form of a curve after the final fit; `None` for a free curve.
+pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<CauseForm> {
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
     let observable = curve.form.observable;
-    let record = CauseForm {
-        form: closed.info.name,
-        acts: closed.acts.name(),
-        equation: equation(closed, observable, &column.name),
-        probability: 1.0,
-        others: Vec::new(),
-        resembles: resemblance(closed, observable, &column.name),
-    };
-    let record = with_probabilities(record, hypothesis, curve);
     let ends = intervals(curve, closed, &with_curve(hypothesis), quantile(hypothesis, closed));
     let estimate = |place: usize| {
         let (value, [low, high]) = (closed.parameters[place], ends[place]);
@@ -94,8 +82,17 @@ pub(super) fn found(
         let [value, low, high] = [value, low.min(value), high.max(value)].map(rounded);
         (parameter.name, Estimate { value, low, high, unit: unit(parameter.unit, column.unit) })
     };
-    let estimates = (0..closed.parameters.len()).filter(|place| closed.free[*place]).map(estimate).collect();
-    Some((record, estimates))
+    let record = CauseForm {
+        observable: observable.name(),
+        form: closed.info.name,
+        acts: closed.acts.name(),
+        equation: equation(closed, observable, &column.name),
+        parameters: (0..closed.parameters.len()).filter(|place| closed.free[*place]).map(estimate).collect(),
+        probability: 1.0,
+        others: Vec::new(),
+        resembles: resemblance(closed, observable, &column.name),
+    };
+    Some(with_probabilities(record, hypothesis, curve))
 }
 
 /// The unit of a parameter of a form over a column with this unit; empty where it is not known.

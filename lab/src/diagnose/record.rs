@@ -180,8 +180,8 @@ pub struct Finding {
     pub measure_next: Vec<NextMeasurement>,
     /// The fitted curve, for a column that no effect explains.
     pub curve: Option<CauseCurve>,
-    /// The closed form in its place, if the data bear one.
-    pub form: Option<CauseForm>,
+    /// The closed forms in the place of curves, if the data bear any: one an observable.
+    pub forms: Vec<CauseForm>,
     /// The surface, if this is an unknown dependence on two columns.
     pub surface: Option<CauseSurface>,
     /// The finding in a few sentences.
@@ -245,12 +245,16 @@ pub struct CauseCurve {
 /// A closed form over a column.
 #[derive(Debug, Clone, Serialize)]
 pub struct CauseForm {
+    /// `e_n`, `e_t` or `outcome`.
+    pub observable: &'static str,
     /// Its name in model files.
     pub form: &'static str,
     /// Whether it replaces the prediction (`set`), is added to it (`add`) or to 1 in a factor on it (`factor`).
     pub acts: &'static str,
     /// The equation with numbers; `base` is the prediction of the base model.
     pub equation: String,
+    /// Its fitted parameters.
+    pub parameters: BTreeMap<&'static str, Estimate>,
     /// Probability among the forms [1], each with equal odds before the data.
     pub probability: f64,
     /// The other forms that the data leave open, the most probable first.

@@ -60,8 +60,9 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         }
         let finding = builder.finding(discovery);
         // A column that acts on two observables is one cause.
-        if findings.iter().all(|earlier| earlier.cause != finding.cause) {
-            findings.push(finding);
+        match findings.iter_mut().find(|earlier| earlier.cause == finding.cause) {
+            Some(earlier) => earlier.join(finding),
+            None => findings.push(finding),
         }
     }
     let undecided = if choice.discoveries.is_empty() { choice.explanations.undecided() } else { Vec::new() };

@@ -268,7 +268,7 @@ impl RigFindings<'_> {
             indistinguishable_from: explanations.in_stead_of(&cause),
             measure_next: Vec::new(),
             curve,
-            form: None,
+            forms: Vec::new(),
             surface: None,
             explanation: String::new(),
             cause,

@@ -100,7 +100,7 @@ fn shape(p_value: f64) -> String {
 
 pub(in crate::report) fn parameters(finding: &Finding) -> Table {
     let effect = EFFECTS.iter().find(|kind| kind.id == finding.cause);
-    let form = finding.form.as_ref().and_then(|form| FormInfo::from_name(form.form));
+    let form = finding.forms.first().and_then(|form| FormInfo::from_name(form.form));
     let of_effect = effect.map(|effect| effect.parameters);
     let known = of_effect.or_else(|| form.map(|form| form.parameters)).unwrap_or_default();
     let about = |name: &str| {

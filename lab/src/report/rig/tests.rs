@@ -156,7 +156,7 @@ fn finding(cause: &str) -> Finding {
         indistinguishable_from: Vec::new(),
         measure_next: Vec::new(),
         curve: None,
-        form: None,
+        forms: Vec::new(),
         surface: None,
         explanation: "It acts most on captured.".into(),
     }
