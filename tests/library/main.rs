@@ -13,6 +13,7 @@ mod capture;
 mod char_on_slag;
 mod contact_integration;
 mod docs;
+mod drop_bounce;
 mod droplet;
 mod effects;
 mod fitted_curves;
