@@ -8,10 +8,11 @@
 //! `receding_angle` on both sides; without one by 5° from 150° on, and nothing up to 120°, as the walls of Mao, Kuhn &
 //! Tran had theirs.
 //!
-//! The drop leaves when `E > 0`, with `e_n = sqrt(12 E/We)`. Both energies are below the kinetic energy `We/12` that
-//! arrives, so `e_n` is below 1. Energies over the surface energy `pi d² sigma` of the drop, angles [rad].
+//! The drop leaves when `E > 0`, and from 150° on when it also lifts its weight (`w` of that before), with `e_n
+//! = sqrt(12 E/We)`. Both energies are below the kinetic energy `We/12` that arrives, so `e_n` is below 1.
+//! Energies over the surface energy `pi d² sigma` of the drop, angles [rad].
 
-use super::drop_bounce::{BounceNumbers, bounce_energy, contact_diameter};
+use super::drop_bounce::{BounceNumbers, bounce_energy, contact_diameter, lift_energy};
 use super::drop_pinning::{ContactAngles, USUAL_HYSTERESIS};
 use super::drop_rebound::{excess_rebound_energy, maximum_spread};
 
@@ -26,12 +27,12 @@ pub fn bounce_share(contact_angle: f64) -> f64 {
     share * share * (3.0 - 2.0 * share)
 }
 
-/// Kinetic energy [1, of the drop's surface energy] that is left for a drop to leave with, negative for
-/// one that stays.
+/// Kinetic energy [1, of the drop's surface energy] that is left for a drop to leave with; one that
+/// stays has too little, or a negative one.
 pub fn energy_left(numbers: &BounceNumbers, angles: &ContactAngles) -> f64 {
     let share = bounce_share(angles.contact);
     let bounce = || {
-        let pinning = angles.pinning_work(contact_diameter(numbers.weber), USUAL_HYSTERESIS);
+        let pinning = angles.pinning_work(contact_diameter(numbers.weber, numbers.bond), USUAL_HYSTERESIS);
         bounce_energy(numbers) - pinning
     };
     if share == 1.0 {
@@ -52,5 +53,6 @@ fn spreading_energy(numbers: &BounceNumbers, angles: &ContactAngles) -> f64 {
 /// Normal restitution `e_n` [1] of a drop that leaves the wall; `None` for one that stays.
 pub fn drop_restitution(numbers: &BounceNumbers, angles: &ContactAngles) -> Option<f64> {
     let left = energy_left(numbers, angles);
-    (left > 0.0).then(|| (12.0 * left / numbers.weber).sqrt().min(1.0))
+    let lift = bounce_share(angles.contact) * lift_energy(numbers);
+    (left > lift).then(|| (12.0 * left / numbers.weber).sqrt().min(1.0))
 }

@@ -32,8 +32,8 @@
 //!
 //! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash
 //! leaves whole where energy is left for it ([`drop_restitution`](super::drop_restitution)), and with
-//! that restitution. `receding_angle` [degrees] pins it, `gravity` [m/s², default 9.81: a wall below
-//! it] weighs on it. It stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
+//! that restitution. `receding_angle` [degrees] pins it, `gravity` [m/s²] weighs on it where the wall is
+//! below; without it a drop of `Bo` above 0.1 at 9.81 m/s² counts as outside the range. It stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
 //! judged where the droplet has `melting_point`, `heat_capacity`, `thermal_conductivity` and
 //! `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact
 //! angle all that does not splash counts as deposited; on a molten wall too, where drops merge.
@@ -96,12 +96,14 @@ pub struct DropletCriterion {
     splash_limit: f64,
     laws: MeltLaws,
     contact_angles: Option<ContactAngles>,
-    /// Towards the wall [m/s²].
-    gravity: f64,
+    /// Towards the wall [m/s²], where it is given.
+    gravity: Option<f64>,
 }
 
-/// Gravity towards the wall [m/s²], where the model gives none: that on a wall below the drops.
-const GRAVITY: f64 = 9.81;
+/// Gravity [m/s²] that says whether a drop would have a weight on a floor, where the model gives none.
+const USUAL_GRAVITY: f64 = 9.81;
+/// Largest Bond number [1] of a drop whose weight may be left out (*assumed*; it changes `e_n` by some hundredths).
+const WEIGHTLESS: f64 = 0.1;
 
 impl DropletCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
@@ -110,18 +112,16 @@ impl DropletCriterion {
             splash_limit: given.unwrap_or(SPLASH_K),
             laws: MeltLaws::read_optional(section)?,
             contact_angles: read_angles(section)?,
-            gravity: section.number_within("gravity", 0.0, f64::INFINITY)?.unwrap_or(GRAVITY),
+            gravity: section.number_within("gravity", 0.0, f64::INFINITY)?,
         })
     }
 
     pub(super) fn describe(self) -> String {
         let angle = self.contact_angles.map_or_else(String::new, |ContactAngles { contact, receding }| {
             let receding = receding.map(|angle| format!(", receding_angle {:.6}", angle.to_degrees()));
-            format!(
-                ", rebound at a contact_angle of {:.6} degrees{}",
-                contact.to_degrees(),
-                receding.unwrap_or_default()
-            )
+            let gravity = self.gravity.map(|gravity| format!(", gravity {gravity} m/s2"));
+            let [receding, gravity] = [receding, gravity].map(Option::unwrap_or_default);
+            format!(", rebound at a contact_angle of {:.6} degrees{receding}{gravity}", contact.to_degrees())
         });
         let law = self.laws.describe().map_or_else(String::new, |law| format!(", viscosity by {law}"));
         format!("droplet, splash_K {}{law}{angle}", self.splash_limit)
@@ -150,6 +150,11 @@ impl DropletCriterion {
             None => Err(Unsuitable::NoLaw { material: name() }),
         }
     }
+}
+
+/// `Bo = rho g d²/sigma` [1] of a melt, gravity `g` [m/s²] and the diameter `d` [m].
+fn bond_number(melt: &Molten, gravity: f64, diameter: f64) -> f64 {
+    melt.density * gravity * diameter * diameter / melt.surface_tension
 }
 
 /// `contact_angle` and `receding_angle` of a `[capture]` table.
@@ -212,7 +217,7 @@ impl Droplet {
         BounceNumbers {
             weber: DropletNumbers::new(melt, impact.normal_speed, diameter).weber,
             ohnesorge: viscosity / (density * surface_tension * diameter).sqrt(),
-            bond: density * self.criterion.gravity * diameter * diameter / surface_tension,
+            bond: bond_number(melt, self.criterion.gravity.unwrap_or(0.0), diameter),
         }
     }
 
@@ -284,9 +289,13 @@ impl StickinessCriterion for Droplet {
         }
         let value = angles.contact.to_degrees();
         let range = [BOUNCES_FROM.to_degrees(), 180.0];
-        let angle = StatedNumber { name: "contact angle", unit: "degrees", value, range };
-        let mut all = vec![angle];
+        let mut all = vec![StatedNumber { name: "contact angle", unit: "degrees", value, range }];
         all.extend(self.bounce_numbers(impact, &melt).stated());
+        if self.criterion.gravity.is_none() {
+            let value = bond_number(&melt, USUAL_GRAVITY, impact.diameter);
+            let name = "Bo at 9.81 m/s² (no gravity is given)";
+            all.push(StatedNumber { name, unit: "", value, range: [0.0, WEIGHTLESS] });
+        }
         all.retain(|number| !number.holds());
         all
     }

@@ -14,7 +14,7 @@
 use std::f64::consts::{PI, SQRT_2};
 use std::path::Path;
 
-use nearwall::capture::drop_bounce::{BounceNumbers, bounce_energy, contact_diameter};
+use nearwall::capture::drop_bounce::{BounceNumbers, bounce_energy, contact_diameter, lift_energy};
 use nearwall::capture::drop_pinning::ContactAngles;
 use nearwall::capture::drop_restitution::drop_restitution;
 use nearwall::{Impact, ImpactRng, Model, Outcome};
@@ -109,7 +109,8 @@ fn push_apart(gaps: &[f64], compliance: &[Vec<f64>], pressures: &mut [f64]) {
     }
 }
 
-/// Restitution of a drop by Weber, Ohnesorge and Bond number by radius; 0 when it has not left after a time of 15.
+/// Restitution of a drop by Weber, Ohnesorge and Bond number by radius, at the height at which it came; 0 when it has not
+/// left after a time of 15.
 fn calculated_restitution(weber: f64, ohnesorge: f64, bond: f64) -> f64 {
     let points = points();
     let modes: Vec<Mode> = (2..=MODES).map(|l| Mode::new(l, ohnesorge)).collect();
@@ -150,10 +151,10 @@ fn calculated_restitution(weber: f64, ohnesorge: f64, bond: f64) -> f64 {
         }
         time += STEP;
         if pressures.iter().any(|p| *p > 0.0) {
-            (left_at, leaving) = (time, speed);
+            (left_at, leaving) = (time, speed * speed + 2.0 * bond * (height - 1.0));
         }
     }
-    if time < 15.0 { leaving.max(0.0) / weber.sqrt() } else { 0.0 }
+    if time < 15.0 { (leaving.max(0.0) / weber).sqrt() } else { 0.0 }
 }
 
 /// A row of `drop_bounce_simulated.csv`, by diameter.
@@ -175,16 +176,16 @@ fn table() -> Vec<Row> {
 }
 
 fn law(numbers: &BounceNumbers) -> f64 {
-    (12.0 * bounce_energy(numbers).max(0.0) / numbers.weber).sqrt()
+    let left = bounce_energy(numbers);
+    if left > lift_energy(numbers) { (12.0 * left / numbers.weber).sqrt() } else { 0.0 }
 }
 
-/// Coarser in space and time than the table, so within 0.015 where the contact is wide enough for
-/// 40 modes; the bounce or capture is the same.
+/// Coarser in space and time than the table, so within 0.015; the bounce or capture is the same.
 #[test]
 fn the_table_is_what_the_calculation_says() {
     let mut compared = 0;
-    let wide = table().into_iter().filter(|row| row.numbers.weber > 0.03);
-    for Row { numbers: BounceNumbers { weber, ohnesorge, bond }, restitution, .. } in wide.skip(2).step_by(5)
+    for Row { numbers: BounceNumbers { weber, ohnesorge, bond }, restitution, .. } in
+        table().into_iter().skip(3).step_by(7)
     {
         let again = calculated_restitution(0.5 * weber, SQRT_2 * ohnesorge, 0.25 * bond);
         let difference = (again - restitution).abs();
@@ -195,7 +196,7 @@ fn the_table_is_what_the_calculation_says() {
     assert!(compared >= 9);
 }
 
-/// Of these 64: rms 0.02 without weight, 0.09 with it, three bounces and captures confused.
+/// Of these 64: rms 0.02 without weight, 0.06 with it, two bounces called captures.
 #[test]
 fn the_law_says_what_was_calculated() {
     let rows = table();
@@ -205,12 +206,12 @@ fn the_law_says_what_was_calculated() {
         let squares: Vec<f64> = rows.map(|row| (law(&row.numbers) - row.restitution).powi(2)).collect();
         (squares.iter().sum::<f64>() / squares.len() as f64).sqrt()
     };
-    assert!(rms(false) < 0.02 && rms(true) < 0.09, "{} {}", rms(false), rms(true));
+    assert!(rms(false) < 0.02 && rms(true) < 0.065, "{} {}", rms(false), rms(true));
     let sides = rows.iter().filter(|row| (law(&row.numbers) > 0.0) != (row.restitution > 0.0)).count();
-    assert!(sides <= 3, "{sides}");
-    for row in rows.iter().filter(|row| row.numbers.bond == 0.0) {
-        let ratio = contact_diameter(row.numbers.weber) / row.contact;
-        assert!((0.8..1.25).contains(&ratio), "We {}: {ratio}", row.numbers.weber);
+    assert!(sides <= 2, "{sides}");
+    for Row { numbers: BounceNumbers { weber, bond, .. }, contact, .. } in &rows {
+        let ratio = contact_diameter(*weber, *bond) / contact;
+        assert!((0.75..1.35).contains(&ratio), "We {weber} Bo {bond}: {ratio}");
     }
 }
 
@@ -242,17 +243,21 @@ fn water_bounces_from_a_superhydrophobic_wall_down_to_small_speeds() {
     let wall = "contact_angle = 160\nreceding_angle = 155";
     for weber in [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0] {
         let outcome = at(wall, weber);
-        assert!(!outcome.stuck && outcome.normal_restitution > 0.1, "We {weber}: {outcome:?}");
-        assert_eq!(outcome.outside_range, weber > 4.0, "We {weber}");
+        assert!(!outcome.stuck && outcome.normal_restitution > 0.3, "We {weber}: {outcome:?}");
     }
-    // Near 0.9 at We 1 (Richard & Quéré, Europhys. Lett. 50 (2000) 769, not re-read: "up to 0.9").
+    // Near 0.9 at We 0.5 (Richard & Quéré, Europhys. Lett. 50 (2000) 769, not re-read: "up to 0.9").
     assert!((0.8..0.95).contains(&at(wall, 0.5).normal_restitution), "{:?}", at(wall, 0.5));
-    // Pinning and weight hold the slowest ones, and 30° of hysteresis on a wall that is wetted all.
+    // Pinning holds the slowest ones, and 30° of hysteresis on a wall that is wetted all.
     assert!(at(wall, 0.001).stuck);
     assert!(at("contact_angle = 105\nreceding_angle = 75", 0.01).stuck);
     assert!(at("contact_angle = 90\nreceding_angle = 60", 0.01).stuck);
-    // On a wall that a film of gas covers, without weight, only the oscillations and viscosity take energy.
-    let free = at("contact_angle = 180\nreceding_angle = 180\ngravity = 0", 0.001);
+    // On a floor its weight widens the contact: by hand 0.41 · 0.01^0.48 + 0.54/4 = 0.18, so pinning takes 0.0015 of
+    // 0.00083; the same without hysteresis bounces.
+    let floor = "\ngravity = 9.81";
+    assert!(at(&format!("{wall}{floor}"), 0.01).stuck && !at(&format!("{wall}{floor}"), 0.1).stuck);
+    assert!(!at(&format!("contact_angle = 180\nreceding_angle = 180{floor}"), 0.01).stuck);
+    // On a wall that a film of gas covers, only the oscillations and viscosity take energy.
+    let free = at("contact_angle = 180\nreceding_angle = 180", 0.001);
     assert!(free.normal_restitution > 0.9, "{free:?}");
 }
 
@@ -263,7 +268,7 @@ fn a_drop_comes_to_rest_after_many_bounces() {
     let mut impact_speed = speed(WATER, 3.0, 1e-3);
     let mut bounces = 0;
     while bounces < 200 {
-        let outcome = hit(WATER, "contact_angle = 165", 1e-3, impact_speed);
+        let outcome = hit(WATER, "contact_angle = 165\ngravity = 9.81", 1e-3, impact_speed);
         if outcome.stuck {
             break;
         }
@@ -277,7 +282,8 @@ fn a_drop_comes_to_rest_after_many_bounces() {
 /// viscosity. Size and speed are assumed: 2.4 mm, 0.4 m/s. Glycerol (`Oh` 3) stays.
 #[test]
 fn viscous_drops_bounce_up_to_a_hundred_times_water() {
-    let at = |viscosity: f64| hit([1230.0, viscosity, 0.065], "contact_angle = 165", 2.4e-3, 0.4);
+    let at =
+        |viscosity: f64| hit([1230.0, viscosity, 0.065], "contact_angle = 165\ngravity = 9.81", 2.4e-3, 0.4);
     assert!(!at(0.01).stuck && !at(0.1).stuck, "{:?}", at(0.1));
     assert!(at(0.1).normal_restitution < 0.5 * at(0.01).normal_restitution);
     for diameter in [20e-6, 0.2e-3, 2e-3] {
@@ -313,7 +319,7 @@ fn bouncing_ends_where_viscosity_and_weight_are_one() {
             drop_restitution(&numbers, &film).is_some()
         };
         let last = (1..200_u8).rev().map(|share| f64::from(share) / 100.0).find(|oh| bounces(*oh)).unwrap();
-        assert!((0.9..1.02).contains(&(last + bond)), "Bo {bond}: Oh {last}");
+        assert!((0.85..1.02).contains(&(last + bond)), "Bo {bond}: Oh {last}");
     }
 }
 
@@ -336,10 +342,14 @@ fn angles_that_do_not_belong_together_are_errors() {
 /// Between 120 and 150° neither law was made; beyond that the flag names the number.
 #[test]
 fn what_lies_outside_of_the_calculations_is_said() {
-    let at = |angle: f64, weber: f64| {
-        let lines = format!("contact_angle = {angle}");
-        hit(WATER, &lines, 1e-3, speed(WATER, weber, 1e-3)).outside_range
+    let at = |lines: &str, diameter: f64, weber: f64| {
+        hit(WATER, lines, diameter, speed(WATER, weber, diameter)).outside_range
     };
-    assert_eq!([at(110.0, 2.0), at(135.0, 2.0), at(155.0, 2.0)], [false, true, false]);
-    assert!(at(155.0, 5.0) && at(155.0, 5e-4));
+    let angles = ["contact_angle = 110", "contact_angle = 135", "contact_angle = 155"];
+    assert_eq!(angles.map(|lines| at(lines, 0.5e-3, 2.0)), [false, true, false]);
+    assert_eq!([5e-4, 2e-3, 3.9, 5.0].map(|weber| at(angles[2], 0.5e-3, weber)), [true, false, false, true]);
+    // Bo 0.54 at 9.81 m/s²: where the wall is has to be said.
+    assert!(at(angles[2], 2e-3, 1.0) && !at("contact_angle = 155\ngravity = 0", 2e-3, 1.0));
+    assert!(!at("contact_angle = 155\ngravity = 9.81", 2e-3, 1.0));
+    assert!(at("contact_angle = 155\ngravity = 9.81", 6e-3, 1.0));
 }

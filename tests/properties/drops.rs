@@ -30,13 +30,13 @@ proptest! {
         prop_assert!(left <= arriving * (1.0 + 1e-9), "{left} of {arriving}");
         if angles.contact >= BOUNCES_FROM {
             let oscillations = 1.0 - weightless_restitution(numbers.weber, numbers.ohnesorge).powi(2);
-            let pinning = angles.pinning_work(contact_diameter(numbers.weber), 0.0);
+            let pinning = angles.pinning_work(contact_diameter(numbers.weber, numbers.bond), 0.0);
             let kept = arriving * (1.0 - oscillations) - pinning;
             prop_assert!(left <= kept.max(0.0) + 1e-12 * arriving, "{left} of {kept}");
         }
         let e_n = drop_restitution(&numbers, &angles);
         prop_assert!(e_n.is_none_or(|e_n| e_n > 0.0 && e_n <= 1.0), "{e_n:?}");
-        prop_assert_eq!(e_n.is_some(), left > 0.0);
+        prop_assert!(e_n.is_none() || left > 0.0);
     }
 
     /// A more viscous, a heavier and a more pinned drop never leaves faster.
