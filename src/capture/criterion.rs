@@ -8,6 +8,7 @@ use std::sync::Arc;
 
 use fearless_simd::Level;
 
+use super::drop_bounce::StatedNumber;
 use super::droplet::DropletCriterion;
 use super::fusion::FusionCriterion;
 use super::melt_fraction::MeltFractionCriterion;
@@ -20,10 +21,11 @@ use crate::material::Material;
 use crate::slag::{OutsideAshes, UnsuitableComposition};
 
 /// The kinds of the numbers of a `[capture]` table.
-pub(crate) const CAPTURE_KINDS: [(&str, QuantityKind); 3] = [
+pub(crate) const CAPTURE_KINDS: [(&str, QuantityKind); 4] = [
     ("sticky_from", QuantityKind::Share),
     ("flows_from", QuantityKind::Share),
     ("contact_angle", QuantityKind::Angle),
+    ("receding_angle", QuantityKind::Angle),
 ];
 
 /// A `[capture]` table.
@@ -301,6 +303,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
     /// As [`StickinessCriterion::in_flight`].
     fn droplet_rebound(&self, _impact: &Impact, _wall: &Material) -> Result<Option<f64>, ImpactError> {
         Ok(None)
+    }
+
+    /// The numbers of a droplet's rebound that lie outside of the range of its law; none for what has no such law.
+    fn left_by_rebound(&self, _impact: &Impact) -> Vec<StatedNumber> {
+        Vec::new()
     }
 
     /// Temperature [K] below which the material is stiff on a wall; `None` for one without such a temperature.

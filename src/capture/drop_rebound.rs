@@ -23,10 +23,12 @@
 //! sigma E`. It is an upper bound (*assumed* to hold), as a drop that leaves still oscillates, and
 //! is below 1 by the energy balance.
 //!
-//! Neglected: a receding contact angle smaller than the static one (it pins), roughness, gas under
+//! Neglected: a receding contact angle below that of their walls ([`drop_pinning`](super::drop_pinning)),
+//! roughness, gas under
 //! the drop, freezing (see [`freezing`](super::drop_freezing)). The equation has no root with
 //! `xi >= 1` for slow drops (`We` below some 1) on walls that are hardly wetted (above 109°), which in
-//! truth bounce, and for very viscous ones, which hardly spread: they count as deposited.
+//! truth bounce ([`drop_bounce`](super::drop_bounce) takes over from 120° on), and for very viscous
+//! ones, which hardly spread: they count as deposited.
 
 /// Largest diameter of the disc over that of the droplet, `xi` [1], from Weber and Reynolds number
 /// [1] and the contact angle [rad]; `None` where the energy balance has no solution that is wider
@@ -50,14 +52,6 @@ pub fn excess_rebound_energy(spread: f64, contact_angle: f64) -> f64 {
     0.25 * spread * spread * unwetted - recoil_loss + 2.0 / (3.0 * spread) - 1.0
 }
 
-/// Normal restitution `e_n` [1] of a droplet that rebounds; `None` for one that stays. Weber and
-/// Reynolds number [1], contact angle [rad].
-pub fn droplet_restitution(weber: f64, reynolds: f64, contact_angle: f64) -> Option<f64> {
-    let spread = maximum_spread(weber, reynolds, contact_angle)?;
-    let excess = excess_rebound_energy(spread, contact_angle);
-    (excess > 0.0).then(|| (12.0 * excess / weber).sqrt().min(1.0))
-}
-
 /// Longest time [s] that a drop of low viscosity stays on a wall from which it bounces, `2.6
 /// sqrt(rho R³/sigma)` (Richard, Clanet & Quéré, Nature 417 (2002) 811, not re-read), close to the
 /// period of a free drop's slowest oscillation, `pi/sqrt(2) sqrt(rho R³/sigma)` (Rayleigh). From
@@ -68,11 +62,20 @@ pub fn contact_time(density: f64, surface_tension: f64, diameter: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::drop_bounce::BounceNumbers;
+    use super::super::drop_pinning::ContactAngles;
+    use super::super::drop_restitution::drop_restitution;
     use super::*;
     use approx::assert_relative_eq;
     use std::f64::consts::PI;
 
     const DEGREE: f64 = PI / 180.0;
+
+    /// On a wall of one angle, without weight.
+    fn droplet_restitution(weber: f64, reynolds: f64, contact: f64) -> Option<f64> {
+        let numbers = BounceNumbers { weber, ohnesorge: weber.sqrt() / reynolds, bond: 0.0 };
+        drop_restitution(&numbers, &ContactAngles { contact, receding: None })
+    }
 
     /// The balance of the first doc comment in joules, for a drop and a disc of equal volume.
     #[test]

@@ -31,16 +31,18 @@
 //! 1203.2718, abstract, as for roughness).
 //!
 //! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash
-//! leaves whole where the energy balance on spreading says so
-//! ([`drop_rebound`](super::drop_rebound)), and with that restitution; aqueous drops of 30 to 50 µm
-//! do so on Teflon above some metres a second (McLauchlan et al., arXiv 2503.22527, abstract). It
-//! stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
+//! leaves whole where energy is left for it ([`drop_restitution`](super::drop_restitution)), and with
+//! that restitution. `receding_angle` [degrees] pins it, `gravity` [m/s²] weighs on it where the wall is
+//! below; without it a drop of `Bo` above 0.1 at 9.81 m/s² counts as outside the range. It stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
 //! judged where the droplet has `melting_point`, `heat_capacity`, `thermal_conductivity` and
 //! `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact
 //! angle all that does not splash counts as deposited; on a molten wall too, where drops merge.
 
+use super::drop_bounce::{BounceNumbers, StatedNumber};
 use super::drop_freezing::{FreezingDroplet, ThermalProperties};
-use super::drop_rebound::{contact_time, droplet_restitution, maximum_spread};
+use super::drop_pinning::ContactAngles;
+use super::drop_rebound::{contact_time, maximum_spread};
+use super::drop_restitution::{BOUNCES_FROM, bounce_share, drop_restitution};
 use super::melt::{Melt, MeltLaws};
 use super::{StickinessCriterion, Unsuitable};
 use crate::impact::{Impact, ImpactError};
@@ -93,9 +95,15 @@ pub const WORKING_VISCOSITY: f64 = 1e3;
 pub struct DropletCriterion {
     splash_limit: f64,
     laws: MeltLaws,
-    /// [rad]
-    contact_angle: Option<f64>,
+    contact_angles: Option<ContactAngles>,
+    /// Towards the wall [m/s²], where it is given.
+    gravity: Option<f64>,
 }
+
+/// Gravity [m/s²] that says whether a drop would have a weight on a floor, where the model gives none.
+const USUAL_GRAVITY: f64 = 9.81;
+/// Largest Bond number [1] of a drop whose weight may be left out (*assumed*; it changes `e_n` by some hundredths).
+const WEIGHTLESS: f64 = 0.1;
 
 impl DropletCriterion {
     pub(super) fn read(section: &Section<'_>) -> Result<Self, InputError> {
@@ -103,13 +111,17 @@ impl DropletCriterion {
         Ok(Self {
             splash_limit: given.unwrap_or(SPLASH_K),
             laws: MeltLaws::read_optional(section)?,
-            contact_angle: section.number_within("contact_angle", 0.0, 180.0)?.map(f64::to_radians),
+            contact_angles: read_angles(section)?,
+            gravity: section.number_within("gravity", 0.0, f64::INFINITY)?,
         })
     }
 
     pub(super) fn describe(self) -> String {
-        let angle = self.contact_angle.map_or_else(String::new, |angle| {
-            format!(", rebound at a contact_angle of {:.6} degrees", angle.to_degrees())
+        let angle = self.contact_angles.map_or_else(String::new, |ContactAngles { contact, receding }| {
+            let receding = receding.map(|angle| format!(", receding_angle {:.6}", angle.to_degrees()));
+            let gravity = self.gravity.map(|gravity| format!(", gravity {gravity} m/s2"));
+            let [receding, gravity] = [receding, gravity].map(Option::unwrap_or_default);
+            format!(", rebound at a contact_angle of {:.6} degrees{receding}{gravity}", contact.to_degrees())
         });
         let law = self.laws.describe().map_or_else(String::new, |law| format!(", viscosity by {law}"));
         format!("droplet, splash_K {}{law}{angle}", self.splash_limit)
@@ -138,6 +150,24 @@ impl DropletCriterion {
             None => Err(Unsuitable::NoLaw { material: name() }),
         }
     }
+}
+
+/// `Bo = rho g d²/sigma` [1] of a melt, gravity `g` [m/s²] and the diameter `d` [m].
+fn bond_number(melt: &Molten, gravity: f64, diameter: f64) -> f64 {
+    melt.density * gravity * diameter * diameter / melt.surface_tension
+}
+
+/// `contact_angle` and `receding_angle` of a `[capture]` table.
+fn read_angles(section: &Section<'_>) -> Result<Option<ContactAngles>, InputError> {
+    let contact = section.number_within("contact_angle", 0.0, 180.0)?;
+    let receding = section.number_within("receding_angle", 0.0, contact.unwrap_or(180.0))?;
+    if contact.is_none() && receding.is_some() {
+        return Err(section.fault("receding_angle", "needs a contact_angle beside it"));
+    }
+    Ok(contact.map(|contact| ContactAngles {
+        contact: contact.to_radians(),
+        receding: receding.map(f64::to_radians),
+    }))
 }
 
 /// The criterion for one material.
@@ -169,6 +199,26 @@ impl Droplet {
             viscosity: self.melt.viscosity(temperature)?,
             surface_tension: self.material.surface_tension(temperature)?,
         }))
+    }
+
+    /// The melt of a droplet that may leave whole, with its contact angles; `None` for a solid, one that
+    /// splashes, and without a contact angle.
+    fn whole(&self, impact: &Impact) -> Result<Option<(ContactAngles, Molten)>, ImpactError> {
+        let Some(angles) = self.criterion.contact_angles else { return Ok(None) };
+        let Some(melt) = self.molten(impact)? else { return Ok(None) };
+        let splash = DropletNumbers::new(&melt, impact.normal_speed, impact.diameter).splash;
+        Ok((splash <= self.criterion.splash_limit).then_some((angles, melt)))
+    }
+
+    /// The numbers of the rebound.
+    fn bounce_numbers(&self, impact: &Impact, melt: &Molten) -> BounceNumbers {
+        let Molten { density, viscosity, surface_tension } = *melt;
+        let diameter = impact.diameter;
+        BounceNumbers {
+            weber: DropletNumbers::new(melt, impact.normal_speed, diameter).weber,
+            ohnesorge: viscosity / (density * surface_tension * diameter).sqrt(),
+            bond: bond_number(melt, self.criterion.gravity.unwrap_or(0.0), diameter),
+        }
     }
 
     /// Whether freezing on a wall arrests a droplet that would bounce; no where a thermal property is not known.
@@ -227,17 +277,31 @@ impl StickinessCriterion for Droplet {
     }
 
     fn droplet_rebound(&self, impact: &Impact, wall: &Material) -> Result<Option<f64>, ImpactError> {
-        let Some(contact_angle) = self.criterion.contact_angle else { return Ok(None) };
-        let Some(melt) = self.molten(impact)? else { return Ok(None) };
-        let DropletNumbers { weber, reynolds, splash } =
-            DropletNumbers::new(&melt, impact.normal_speed, impact.diameter);
-        if splash > self.criterion.splash_limit {
-            return Ok(None);
+        let Some((angles, melt)) = self.whole(impact)? else { return Ok(None) };
+        let numbers = self.bounce_numbers(impact, &melt);
+        // A disc as wide as the drop where the balance on spreading has no root.
+        let reynolds = numbers.weber.sqrt() / numbers.ohnesorge;
+        let spread = maximum_spread(numbers.weber, reynolds, angles.contact).unwrap_or(1.0);
+        let bounces = drop_restitution(&numbers, &angles);
+        Ok(bounces.filter(|_| !self.is_arrested(impact, &melt, spread, wall)))
+    }
+
+    fn left_by_rebound(&self, impact: &Impact) -> Vec<StatedNumber> {
+        let Ok(Some((angles, melt))) = self.whole(impact) else { return Vec::new() };
+        if bounce_share(angles.contact) == 0.0 {
+            return Vec::new();
         }
-        let spread = maximum_spread(weber, reynolds, contact_angle);
-        let stays = |spread| self.is_arrested(impact, &melt, spread, wall);
-        let bounces = droplet_restitution(weber, reynolds, contact_angle);
-        Ok(bounces.filter(|_| !spread.is_some_and(stays)))
+        let value = angles.contact.to_degrees();
+        let range = [BOUNCES_FROM.to_degrees(), 180.0];
+        let mut all = vec![StatedNumber { name: "contact angle", unit: "degrees", value, range }];
+        all.extend(self.bounce_numbers(impact, &melt).stated());
+        if self.criterion.gravity.is_none() {
+            let value = bond_number(&melt, USUAL_GRAVITY, impact.diameter);
+            let name = "Bo at 9.81 m/s² (no gravity is given)";
+            all.push(StatedNumber { name, unit: "", value, range: [0.0, WEIGHTLESS] });
+        }
+        all.retain(|number| !number.holds());
+        all
     }
 
     /// Whether the material is molten; no where that is not known.

@@ -10,8 +10,11 @@
 //! with a probability of at most `1 - c`.
 
 mod criterion;
+pub mod drop_bounce;
 pub mod drop_freezing;
+pub mod drop_pinning;
 pub mod drop_rebound;
+pub mod drop_restitution;
 mod droplet;
 mod fusion;
 mod kinetic_energy;

@@ -11,6 +11,7 @@ use super::general_wall::Watcher;
 use super::groups::ImpactOnWall;
 use super::wall::WallPlace;
 use super::{Model, Wall};
+use crate::capture::drop_bounce::StatedNumber;
 use crate::capture::{Stickiness, StickinessCriterion};
 use crate::effect::Term;
 use crate::impact::{INPUTS, Impact, ImpactError};
@@ -185,6 +186,14 @@ fn of_speed(criterion: &dyn StickinessCriterion, impact: &Impact, found: &mut Fo
     found(Beyond { what: Stated::CriterionSpeed { name: criterion.name() }, limit });
 }
 
+/// The rebound of a droplet, by its dimensionless numbers and its contact angle.
+fn of_drop_rebound(criterion: &dyn StickinessCriterion, impact: &Impact, found: &mut Found<'_, '_>) {
+    let what = Stated::Law { name: "droplet rebound" };
+    for StatedNumber { name, unit, value, range } in criterion.left_by_rebound(impact) {
+        found(Beyond { what, limit: Limit::Quantity { name, unit, value, range } });
+    }
+}
+
 /// A law that was fitted to a case.
 fn of_origin(name: &'static str, origin: &'static Origin, impact: &Impact, found: &mut Found<'_, '_>) {
     for limit in origin.left_by(impact) {
@@ -258,6 +267,9 @@ impl Model {
             }
             if impact.melt_thickness > 0.0 && !criterion.holds_on_wall(wall_temperature) {
                 of_criterion(criterion.as_ref(), "T_w", wall_temperature, found);
+            }
+            if self.may_bounce(wall, place, impact) == Ok(true) {
+                of_drop_rebound(criterion.as_ref(), impact, found);
             }
         }
         let melt = wall.melt.as_ref().filter(|_| place != WallPlace::Covered);

@@ -280,8 +280,17 @@ impl Model {
         let Some(criterion) = &self.stickiness else { return Ok(None) };
         // Only the droplet criterion has such rebounds; the viscosity of the melt is computed for them alone.
         let rebound = criterion.droplet_rebound(impact, wall.partner(place))?;
-        let molten = || Ok(place != WallPlace::Covered && self.melt_met(wall, impact)?.is_some());
-        if rebound.is_some() && molten()? { Ok(None) } else { Ok(rebound) }
+        if rebound.is_some() && !self.may_bounce(wall, place, impact)? { Ok(None) } else { Ok(rebound) }
+    }
+
+    /// Whether a droplet meets a wall without melt, in which it merges.
+    pub(super) fn may_bounce(
+        &self,
+        wall: &Wall,
+        place: WallPlace,
+        impact: &Impact,
+    ) -> Result<bool, ImpactError> {
+        Ok(place == WallPlace::Covered || self.melt_met(wall, impact)?.is_none())
     }
 
     /// The outcome after the fitted corrections, in the order of the file; of capture, the factors

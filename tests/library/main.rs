@@ -13,6 +13,8 @@ mod capture;
 mod char_on_slag;
 mod contact_integration;
 mod docs;
+mod drop_bounce;
+mod drop_published;
 mod droplet;
 mod effects;
 mod fitted_curves;

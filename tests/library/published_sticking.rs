@@ -228,7 +228,7 @@ fn observation(id: &str) -> Observation {
 }
 
 /// Three significant digits.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     short_number(value).to_string()
 }
 
@@ -330,7 +330,7 @@ fn fitted_work() -> (f64, [f64; 2]) {
 }
 
 /// What stands between the marks of a block in the page.
-fn replaced(page: &str, name: &str, fresh: &str) -> String {
+pub(crate) fn replaced(page: &str, name: &str, fresh: &str) -> String {
     let (start, end) = (format!("<!-- {name}: written by the test -->\n"), format!("<!-- end of {name} -->"));
     let from = page.find(&start).unwrap_or_else(|| panic!("{start}")) + start.len();
     let to = page.find(&end).unwrap_or_else(|| panic!("{end}"));

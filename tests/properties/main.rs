@@ -14,6 +14,7 @@ mod bounds;
 mod cases;
 mod continuous;
 mod deposit;
+mod drops;
 mod energy;
 mod monotone;
 mod slag;
