@@ -25,6 +25,8 @@ const EXPONENTS: [f64; 2] = [-4.0, 4.0];
 const STEEPNESS: [f64; 2] = [1.0, 2000.0];
 /// A scale of the column may lie beyond its range by this factor [1].
 const BEYOND: f64 = 10.0;
+/// Points that choose among these places.
+const COARSE_POINTS: usize = 200;
 /// Iterations a parameter of a descent.
 const ITERATIONS: u64 = 40;
 /// Size of its first simplex.
@@ -230,7 +232,13 @@ impl Points {
         };
         let forms = FORMS.iter().filter(is_offered);
         let of = |form: &'static FormInfo| acts.iter().flat_map(move |acts| variants(form, *acts));
-        forms.flat_map(of).collect()
+        // A step of `e_n` or `e_t` has no natural ends.
+        let has_ends = |kind: &Kind| {
+            self.observable == Observable::Capture
+                || kind.info.name != "logistic"
+                || kind.free.iter().all(|free| *free)
+        };
+        forms.flat_map(of).filter(has_ends).collect()
     }
 
     /// The search ranges of the nonlinear parameters.
@@ -285,66 +293,68 @@ impl Points {
     fn fit_readings(&self, kind: &Kind) -> Option<(Vec<f64>, f64)> {
         let axes = self.axes(kind);
         let nonlinear = kind.nonlinear();
-        let number = self.points.len() as f64;
-        let solved = |at: &[f64]| {
+        let solved = |at: &[f64], step: usize| {
             let mut parameters = kind.defaults();
             let values = axes.iter().zip(at).map(|(axis, at)| axis.value(*at));
             nonlinear.iter().zip(values).for_each(|(place, value)| parameters[*place] = value);
-            self.solve(kind, parameters)
+            self.solve(kind, parameters, step)
         };
-        let cost = |at: &[f64]| {
-            solved(at).map_or(f64::INFINITY, |(_, sum)| 0.5 * number * (sum / number).max(1e-12).ln())
+        let cost = |at: &[f64], step: usize| {
+            let number = self.points.len().div_ceil(step) as f64;
+            solved(at, step).map_or(f64::INFINITY, |(_, sum)| 0.5 * number * (sum / number).max(1e-12).ln())
         };
         if axes.is_empty() {
-            let (parameters, _) = solved(&[])?;
-            return Some((parameters, cost(&[])));
+            return Some((solved(&[], 1)?.0, cost(&[], 1)));
         }
-        let steps = PLACES[axes.len().min(2) - 1];
-        let descents = best_of(cost, &grid(axes.len(), steps), 2).into_iter();
-        let descents = descents.map(|start| descend(cost, &start, SIMPLEX, ITERATIONS * axes.len() as u64));
+        // The places need only some of the points.
+        let coarse = self.points.len().div_ceil(COARSE_POINTS);
+        let starts = best_of(|at| cost(at, coarse), &grid(axes.len(), PLACES[axes.len().min(2) - 1]), 2);
+        let rounds = ITERATIONS * axes.len() as u64;
+        let descents = starts.into_iter().map(|start| descend(|at| cost(at, 1), &start, SIMPLEX, rounds));
         let (at, least) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let inside = axes.iter().zip(&at).all(|(axis, at)| !axis.is_at_end(*at));
-        let (parameters, _) = solved(&at).filter(|_| inside && least.is_finite())?;
+        let (parameters, _) = solved(&at, 1).filter(|_| inside && least.is_finite())?;
         Some((parameters, least))
     }
 
-    /// The linear parameters by least squares, and the sum of weighted squares [1].
-    fn solve(&self, kind: &Kind, mut parameters: Vec<f64>) -> Option<(Vec<f64>, f64)> {
+    /// The linear parameters by least squares over every `step`th point, and the sum of weighted squares [1].
+    fn solve(&self, kind: &Kind, mut parameters: Vec<f64>, step: usize) -> Option<(Vec<f64>, f64)> {
         let nonlinear = kind.nonlinear();
         let linear: Vec<usize> =
             (0..kind.free.len()).filter(|p| kind.free[*p] && !nonlinear.contains(p)).collect();
         linear.iter().for_each(|place| parameters[*place] = 0.0);
-        let zero: Vec<f64> =
-            (0..parameters.len()).map(|p| if nonlinear.contains(&p) { parameters[p] } else { 0.0 }).collect();
+        let mut zero = kind.defaults();
+        (0..zero.len()).for_each(|p| zero[p] = if nonlinear.contains(&p) { parameters[p] } else { 0.0 });
+        let unit = |place: &usize| {
+            let mut one = zero.clone();
+            one[*place] = 1.0;
+            one
+        };
+        let units: Vec<Vec<f64>> = linear.iter().map(unit).collect();
+        let has_fixed = parameters != zero;
         let count = linear.len();
         let (mut normal, mut right) = (DMatrix::zeros(count, count), DVector::zeros(count));
-        let target = |point: &Point| match kind.acts {
-            CurveForm::Set => point.residual + point.predicted,
-            _ => point.residual,
-        };
-        let scale = |point: &Point| if kind.acts == CurveForm::Factor { point.predicted } else { 1.0 };
         let mut square = 0.0;
         let mut shapes = vec![0.0; count];
-        for point in &self.points {
-            let scale = scale(point);
-            let fixed = kind.info.value(&parameters, point.x);
-            let left = target(point) - scale * fixed;
-            for (shape, place) in shapes.iter_mut().zip(&linear) {
-                let mut one = zero.clone();
-                one[*place] = 1.0;
-                *shape = scale * kind.info.value(&one, point.x);
+        for point in self.points.iter().step_by(step) {
+            let scale = if kind.acts == CurveForm::Factor { point.predicted } else { 1.0 };
+            let fixed = if has_fixed { scale * kind.info.value(&parameters, point.x) } else { 0.0 };
+            let target =
+                point.residual + if kind.acts == CurveForm::Set { point.predicted } else { 0.0 } - fixed;
+            for (shape, unit) in shapes.iter_mut().zip(&units) {
+                *shape = scale * kind.info.value(unit, point.x);
             }
             for i in 0..count {
-                right[i] += point.weight * shapes[i] * left;
+                right[i] += point.weight * shapes[i] * target;
                 (0..count).for_each(|j| normal[(i, j)] += point.weight * shapes[i] * shapes[j]);
             }
-            square += point.weight * left * left;
+            square += point.weight * target * target;
         }
         let solution = normal.clone().cholesky()?.solve(&right);
         let sum = square - 2.0 * solution.dot(&right) + (&normal * &solution).dot(&solution);
         linear.iter().zip(solution.iter()).for_each(|(place, value)| parameters[*place] = *value);
-        (sum.is_finite() && parameters.iter().all(|value| value.is_finite()))
-            .then_some((parameters, sum.max(0.0)))
+        let finite = sum.is_finite() && parameters.iter().all(|value| value.is_finite());
+        finite.then_some((parameters, sum.max(0.0)))
     }
 
     /// Parameters and minus the log likelihood of the outcomes [nats].

@@ -233,11 +233,11 @@ impl<'a> CandidateRound<'a> {
 
     /// A curve with its gain [nats], or the closed form that has more evidence.
     fn closed_or_free(&self, (gain, free): (f64, ColumnCurve)) -> ColumnCurve {
-        // A free curve of capture misses a threshold that a few captures show.
-        if gain < PROMISING_GAIN && free.form.observable != Observable::Capture {
+        let readings = self.search.residuals(free.form.observable, false).len().max(2) as f64;
+        // No form has fewer than two parameters. A free curve of capture misses a threshold that a few captures show.
+        if gain < readings.ln() && free.form.observable != Observable::Capture {
             return free;
         }
-        let readings = self.search.residuals(free.form.observable, false).len().max(2) as f64;
         let worth = |gain: f64, freedom: f64| gain - 0.5 * freedom * readings.ln();
         let of = self.hypothesis;
         // What replaces a prediction would undo what parts and curves do to it.

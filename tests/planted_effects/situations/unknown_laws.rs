@@ -65,7 +65,10 @@ pub fn friction(_: usize, rng: &mut SetRng) -> Plan {
         let friction = cold * (1.0 - lost * part(x.t_p, range));
         Tangential::SlidingRolling { friction }.restitution(stiffness_ratio, e_n, x.v_n, x.v_t)
     }));
-    plan(lab, &["unknown:T_p"], rng)
+    // Friction acts on what slides: on the angle and on the temperature.
+    let mut plan = plan(lab, &["unknown:T_p"], rng);
+    plan.expected = plan.expected.allowing(&["unknown:tan_alpha"]);
+    plan
 }
 
 /// A loss with the product of speed and layer.
@@ -109,7 +112,7 @@ pub fn granular_bed(_: usize, rng: &mut SetRng) -> Plan {
     lab.plant(Plant::normal("unknown:v_t", move |x, _, n| {
         n.e_n *= 1.0 + slope * (x.v_t.hypot(x.v_n) / x.v_n - 1.0);
     }));
-    let mut plan = plan(lab, &["unknown:v_t", "v_n*v_t", "oblique-angle"], rng);
+    let mut plan = plan(lab, &["unknown:tan_alpha", "unknown:v_t", "v_n*v_t", "oblique-angle"], rng);
     plan.expected.bound = Some(Bound { cause: "oblique-angle", parameter: "strength", range: (-1.5, 3.0) });
     plan
 }
