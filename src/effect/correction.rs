@@ -2,8 +2,9 @@
 //!
 //! After all laws and effects, in the order of the file, a correction with the value `f` [1] makes
 //! `e_n -> e_n + f` and `e_t -> e_t + f` (`add`), `e_n -> e_n (1 + f)` and `e_t -> e_t (1 + f)`
-//! (`factor`), or `e_n -> f` and `e_t -> f` (`set`); then `e_n` is at least 0. On capture, `set` replaces
-//! the probability `p` [1] and what corrections before it did to `p`; the factors `1 + f` of all others are
+//! (`factor`), `e_n -> e_n f` and `e_t -> e_t f` (`times`), or `e_n -> f` and `e_t -> f` (`set`); then
+//! `e_n` is at least 0. On capture, `set` replaces
+//! the probability `p` [1] and what corrections before it did to `p`; the factors `1 + f` and `f` of all others are
 //! multiplied with `p`, and then their `f` is added to its log odds: `b = 0.005 + 0.99 p`, `p ->
 //! clamp((logistic(logit(b) + f) - 0.005)/0.99, 0, 1)`. So 0 added changes nothing, and 0 and 1 can be moved.
 
@@ -44,6 +45,8 @@ pub enum CurveForm {
     Add,
     /// One plus the value is a factor.
     Factor,
+    /// The value is a factor; curves do not offer it.
+    Times,
     /// The value replaces the number; curves do not offer it.
     Set,
 }
@@ -52,11 +55,11 @@ impl CurveForm {
     /// Those of curves.
     pub const OF_CURVES: [Self; 2] = [Self::Add, Self::Factor];
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Add, Self::Factor, Self::Set];
+    pub const ALL: [Self; 4] = [Self::Add, Self::Factor, Self::Times, Self::Set];
 
     /// Its name in model files.
     pub fn name(self) -> &'static str {
-        ["add", "factor", "set"][self as usize]
+        ["add", "factor", "times", "set"][self as usize]
     }
 
     /// A number [1] with a correction [1].
@@ -64,6 +67,7 @@ impl CurveForm {
         match self {
             Self::Add => number + value,
             Self::Factor => number * (1.0 + value),
+            Self::Times => number * value,
             Self::Set => value,
         }
     }
@@ -78,6 +82,7 @@ impl CurveForm {
         match self {
             Self::Add => format!("{name} + f"),
             Self::Factor => format!("{name} (1 + f)"),
+            Self::Times => format!("{name} f"),
             Self::Set => format!("{name} = f"),
         }
     }

@@ -319,6 +319,7 @@ impl Model {
                     match correction.acts() {
                         CurveForm::Add => shift += value,
                         CurveForm::Factor => factor *= 1.0 + value,
+                        CurveForm::Times => factor *= value,
                         CurveForm::Set => (capture, factor, shift) = (value, 1.0, 0.0),
                     }
                     shifted_probability(capture, factor, shift)

@@ -20,6 +20,7 @@ mod command;
 mod contact;
 mod gain;
 mod gates;
+mod groups;
 mod migraine;
 mod own_laws;
 mod plant;

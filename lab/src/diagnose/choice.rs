@@ -228,6 +228,7 @@ impl CauseChoice {
         let mut hypothesis = self.hypothesis(fine);
         hypothesis.fit(&fine.fit);
         hypothesis.polish(&fine.fit);
+        hypothesis.settle_forms(&fine.fit);
         set_intervals(&mut hypothesis, &fine.fit);
         hypothesis
     }
@@ -237,6 +238,7 @@ impl CauseChoice {
         let fine = self.fine();
         let mut hypothesis = self.hypothesis(&fine);
         hypothesis.fit(&fine.fit);
+        hypothesis.settle_forms(&fine.fit);
         extend::extended(task.text, &hypothesis)
     }
 }

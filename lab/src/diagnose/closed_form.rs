@@ -68,6 +68,15 @@ impl ClosedForm {
         }
     }
 
+    /// The form that replaces a prediction which is the same everywhere, in the stead of a factor on it.
+    pub fn replacing(&self, prediction: f64) -> Self {
+        let nonlinear = nonlinear(self.info);
+        let parameters = self.parameters.iter().enumerate();
+        let scaled = parameters
+            .map(|(place, value)| if nonlinear.contains(&place) { *value } else { value * prediction });
+        Self { parameters: scaled.collect(), acts: CurveForm::Set, ..self.clone() }
+    }
+
     /// The same form fitted again.
     pub fn again(&self, curve: &ColumnCurve, evaluation: &Evaluation<'_>) -> Option<Self> {
         let points = Points::new(curve, evaluation)?;
@@ -76,10 +85,10 @@ impl ClosedForm {
     }
 }
 
-/// All forms that can stand in the place of a curve, the best first; `sets` where a form may replace the prediction.
-pub(super) fn forms(curve: &ColumnCurve, evaluation: &Evaluation<'_>, sets: bool) -> Vec<Rated> {
+/// All forms that can stand in the place of a curve, the best first.
+pub(super) fn forms(curve: &ColumnCurve, evaluation: &Evaluation<'_>) -> Vec<Rated> {
     let Some(points) = Points::new(curve, evaluation) else { return Vec::new() };
-    let mut all: Vec<Rated> = points.kinds(sets).iter().filter_map(|kind| points.fit(kind)).collect();
+    let mut all: Vec<Rated> = points.kinds().iter().filter_map(|kind| points.fit(kind)).collect();
     all.sort_by(|a, b| a.1.total_cmp(&b.1));
     all
 }
@@ -123,21 +132,25 @@ struct Kind {
 }
 
 impl Kind {
-    /// The parameters in which the form is not linear, by place.
     fn nonlinear(&self) -> Vec<usize> {
-        let names: &[&str] = match self.info.name {
-            "power" => &["b"],
-            "exponential" | "saturating" => &["x_0"],
-            "logistic" => &["x_0", "n"],
-            _ => &[],
-        };
-        (0..self.free.len()).filter(|place| names.contains(&self.info.parameters[*place].name)).collect()
+        nonlinear(self.info)
     }
 
     /// The parameters at their defaults, 0 without one.
     fn defaults(&self) -> Vec<f64> {
         self.info.parameters.iter().map(|parameter| parameter.default.unwrap_or(0.0)).collect()
     }
+}
+
+/// The parameters in which a form is not linear, by place.
+fn nonlinear(form: &FormInfo) -> Vec<usize> {
+    let names: &[&str] = match form.name {
+        "power" => &["b"],
+        "exponential" | "saturating" => &["x_0"],
+        "logistic" => &["x_0", "n"],
+        _ => &[],
+    };
+    (0..form.parameters.len()).filter(|place| names.contains(&form.parameters[*place].name)).collect()
 }
 
 /// One reading over the column.
@@ -210,17 +223,11 @@ impl Points {
         varies.then_some(Self { points, observable, unit, range, positive: all_positive, not_negative })
     }
 
-    /// The forms to fit.
-    fn kinds(&self, sets: bool) -> Vec<Kind> {
-        // Where the prediction is the same everywhere, what replaces it does what additions and factors do.
-        let same = self.points.iter().all(|point| point.predicted == self.points[0].predicted);
-        let acts = match (self.observable, sets) {
-            (Observable::Capture, false) => Vec::new(),
-            (Observable::Capture, true) => vec![CurveForm::Set],
-            (_, true) if same => vec![CurveForm::Set],
-            (_, false) if same => vec![CurveForm::Add],
-            (_, true) => vec![CurveForm::Set, CurveForm::Add, CurveForm::Factor],
-            (_, false) => CurveForm::OF_CURVES.to_vec(),
+    /// The forms to fit. A factor leaves to laws that join later what they change.
+    fn kinds(&self) -> Vec<Kind> {
+        let acts = match self.observable {
+            Observable::Capture => vec![CurveForm::Set],
+            _ => vec![CurveForm::Times, CurveForm::Add],
         };
         let is_offered = |form: &&FormInfo| match form.name {
             "constant" => false,
@@ -337,10 +344,10 @@ impl Points {
         let mut square = 0.0;
         let mut shapes = vec![0.0; count];
         for point in self.points.iter().step_by(step) {
-            let scale = if kind.acts == CurveForm::Factor { point.predicted } else { 1.0 };
+            let scale = if kind.acts == CurveForm::Times { point.predicted } else { 1.0 };
             let fixed = if has_fixed { scale * kind.info.value(&parameters, point.x) } else { 0.0 };
-            let target =
-                point.residual + if kind.acts == CurveForm::Set { point.predicted } else { 0.0 } - fixed;
+            let replaced = if kind.acts == CurveForm::Add { 0.0 } else { point.predicted };
+            let target = point.residual + replaced - fixed;
             for (shape, unit) in shapes.iter_mut().zip(&units) {
                 *shape = scale * kind.info.value(unit, point.x);
             }
@@ -410,7 +417,7 @@ impl Points {
         let (mut normal, mut outer) =
             (DMatrix::<f64>::zeros(count, count), DMatrix::<f64>::zeros(count, count));
         for point in &self.points {
-            let scale = if closed.acts == CurveForm::Factor { point.predicted } else { 1.0 };
+            let scale = if closed.acts == CurveForm::Times { point.predicted } else { 1.0 };
             let slope = |place: &usize| scale * self.slope(closed, *place, point.x * self.unit);
             let slopes = DVector::from_iterator(count, free.iter().map(slope));
             let product = &slopes * slopes.transpose();

@@ -239,12 +239,13 @@ impl<'a> CandidateRound<'a> {
             return free;
         }
         let worth = |gain: f64, freedom: f64| gain - 0.5 * freedom * readings.ln();
+        // A threshold replaces the probability of capture, and with it what laws and curves do to it.
         let of = self.hypothesis;
-        // What replaces a prediction would undo what parts and curves do to it.
-        let sets =
-            of.parts.is_empty() && of.curves.iter().all(|one| one.form.observable != free.form.observable);
-        let best =
-            forms(&free, &self.search, sets).into_iter().next().map(|(closed, _)| free.closed_by(closed));
+        let is_capture = |curve: &ColumnCurve| curve.form.observable == Observable::Capture;
+        if is_capture(&free) && (!of.parts.is_empty() || of.curves.iter().any(is_capture)) {
+            return free;
+        }
+        let best = forms(&free, &self.search).into_iter().next().map(|(closed, _)| free.closed_by(closed));
         let better = best.filter(|closed| {
             let gain_closed = self.fitted_gain(&Addition::Curve(closed.clone()));
             worth(gain_closed, closed.freedom) > worth(gain, free.freedom)

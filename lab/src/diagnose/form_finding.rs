@@ -125,8 +125,7 @@ fn with_probabilities(mut record: CauseForm, hypothesis: &Hypothesis<'_>, curve:
     let data = hypothesis.data;
     bare.curves.retain(|own| own.form.key(data) != curve.form.key(data));
     let rows = bare.evaluate(data.fit.clone(), bare.offsets()).with_fitted_scatter();
-    let sets = record.acts == CurveForm::Set.name();
-    let all: Vec<Rated> = forms(curve, &rows, sets);
+    let all: Vec<Rated> = forms(curve, &rows);
     let best = |name: &str| {
         let own = all.iter().filter(|(form, _)| form.info.name == name).map(|(_, cost)| *cost);
         own.fold(f64::INFINITY, f64::min)
@@ -178,6 +177,7 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         CurveForm::Set => format!("{name} = {value}"),
         CurveForm::Add => format!("{name} = base + ({value})"),
         CurveForm::Factor => format!("{name} = base (1 + {value})"),
+        CurveForm::Times => format!("{name} = base ({value})"),
     }
 }
 

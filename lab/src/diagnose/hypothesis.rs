@@ -16,7 +16,7 @@ use super::part::{FittedPart, Part};
 use super::search::{descend, descend_to};
 use super::smooth::surface;
 use crate::dataset::ColumnValues;
-use nearwall::effect::Term;
+use nearwall::effect::{CurveForm, Term};
 use nearwall::model::Model;
 
 /// A part acts on an observable if it changes it by more than this share of its largest change.
@@ -228,6 +228,24 @@ impl<'a> Hypothesis<'a> {
         let (at, _) = descend_to(SUMMIT, cost, &start, 0.01, 60 * start.len() as u64);
         *self = self.with_coordinates(&at);
         self.fit_scatter(rows);
+    }
+
+    /// Lets closed forms replace predictions that are the same in all these rows, where nothing else acts.
+    pub fn settle_forms(&mut self, rows: &[usize]) {
+        if !self.parts.is_empty() {
+            return;
+        }
+        let plain = self.evaluate(rows, &*self.data.noise);
+        let observables: Vec<Observable> = self.curves.iter().map(|curve| curve.form.observable).collect();
+        for curve in &mut self.curves {
+            let alone = observables.iter().filter(|own| **own == curve.form.observable).count() == 1;
+            let mut predicted = plain.plain(curve.form.observable).map(|(_, value)| value);
+            let first = predicted.next().filter(|first| alone && predicted.all(|value| value == *first));
+            let factor = curve.closed.as_ref().filter(|closed| closed.acts == CurveForm::Times);
+            if let (Some(closed), Some(prediction)) = (factor, first) {
+                curve.closed = Some(closed.replacing(prediction));
+            }
+        }
     }
 
     /// Fits the constant rate of captures, if there is one; 0 where a curve of capture takes its place.

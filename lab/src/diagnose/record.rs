@@ -249,7 +249,7 @@ pub struct CauseForm {
     pub observable: &'static str,
     /// Its name in model files.
     pub form: &'static str,
-    /// Whether it replaces the prediction (`set`), is added to it (`add`) or to 1 in a factor on it (`factor`).
+    /// Whether it replaces the prediction (`set`), is added to it (`add`) or multiplied with it (`times`).
     pub acts: &'static str,
     /// The equation with numbers; `base` is the prediction of the base model.
     pub equation: String,

@@ -44,7 +44,7 @@ pub fn energy(index: usize, rng: &mut SetRng) -> Plan {
     lab.plant(Plant::normal("adhesion-energy", move |x, _, n| {
         n.stick = n.stick.max(1.0 / (1.0 + (energy(x.v_n, x.d) / threshold).powf(power)));
     }));
-    let names = ["unknown:v_n", "adhesion-energy", "unknown:d", "v_n*d"];
+    let names = ["unknown:v_n/v_s", "unknown:v_n", "adhesion-energy", "unknown:d", "v_n*d"];
     plan(lab, &names, index, rng)
 }
 

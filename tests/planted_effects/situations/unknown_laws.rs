@@ -67,7 +67,7 @@ pub fn friction(_: usize, rng: &mut SetRng) -> Plan {
     }));
     // Friction acts on what slides: on the angle and on the temperature.
     let mut plan = plan(lab, &["unknown:T_p"], rng);
-    plan.expected = plan.expected.allowing(&["unknown:tan_alpha"]);
+    plan.expected.allowed.push("unknown:tan_alpha");
     plan
 }
 
