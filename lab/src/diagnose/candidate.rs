@@ -38,6 +38,8 @@ pub(super) enum Class {
 
 /// Prior odds of each addition after the first, over those of the one before [1].
 pub(super) const FURTHER: f64 = 0.3;
+/// Prior probability that a column which acts on one observable acts on another one, over that it does not [1].
+pub(super) const SAME_CAUSE: f64 = 0.5;
 
 impl Class {
     /// Of a curve over these columns.

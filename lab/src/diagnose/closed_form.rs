@@ -68,13 +68,26 @@ impl ClosedForm {
         }
     }
 
-    /// The form that replaces a prediction which is the same everywhere, in the stead of a factor on it.
-    pub fn replacing(&self, prediction: f64) -> Self {
-        let nonlinear = nonlinear(self.info);
-        let parameters = self.parameters.iter().enumerate();
-        let scaled = parameters
-            .map(|(place, value)| if nonlinear.contains(&place) { *value } else { value * prediction });
-        Self { parameters: scaled.collect(), acts: CurveForm::Set, ..self.clone() }
+    /// The form that replaces a prediction which is the same everywhere, in the stead of a factor on it or of a term;
+    /// `None` where no parameter takes the prediction in.
+    pub fn replacing(&self, prediction: f64) -> Option<Self> {
+        let (nonlinear, intercepts) = (nonlinear(self.info), intercepts(self.info));
+        let taken = |(place, value): (usize, &f64)| match self.acts {
+            CurveForm::Times if !nonlinear.contains(&place) => value * prediction,
+            CurveForm::Add if intercepts.contains(&self.info.parameters[place].name) => value + prediction,
+            _ => *value,
+        };
+        let parameters = self.parameters.iter().enumerate().map(taken).collect();
+        let possible =
+            self.acts == CurveForm::Times || (self.acts == CurveForm::Add && !intercepts.is_empty());
+        possible.then(|| Self { parameters, acts: CurveForm::Set, ..self.clone() })
+    }
+
+    /// The same form with all of its parameters fitted; a threshold of capture as it is.
+    pub fn freed(&self) -> Self {
+        let keeps_ends = self.info.name == "logistic";
+        let free = self.free.iter().map(|free| *free || !keeps_ends).collect();
+        Self { free, ..self.clone() }
     }
 
     /// The same form fitted again.
@@ -151,6 +164,16 @@ fn nonlinear(form: &FormInfo) -> Vec<usize> {
         _ => &[],
     };
     (0..form.parameters.len()).filter(|place| names.contains(&form.parameters[*place].name)).collect()
+}
+
+/// The parameters to which a constant can be added.
+fn intercepts(form: &FormInfo) -> &'static [&'static str] {
+    match form.name {
+        "constant" | "line" => &["a"],
+        "exponential" | "saturating" => &["floor"],
+        "logistic" => &["low", "high"],
+        _ => &[],
+    }
 }
 
 /// One reading over the column.

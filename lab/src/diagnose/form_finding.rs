@@ -4,6 +4,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::closed_form::{ClosedForm, Rated, forms, intervals};
 use super::curve::ColumnCurve;
+use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::rounded;
@@ -75,7 +76,11 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
     let observable = curve.form.observable;
-    let ends = intervals(curve, closed, &with_curve(hypothesis), quantile(hypothesis, closed));
+    let bare = without(hypothesis, curve);
+    let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
+    // The data do not know that the defaults are right.
+    let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
+    let ends = intervals(curve, &freed, &with_curve(hypothesis), quantile(hypothesis, closed));
     let estimate = |place: usize| {
         let (value, [low, high]) = (closed.parameters[place], ends[place]);
         let parameter = &closed.info.parameters[place];
@@ -92,7 +97,14 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
         others: Vec::new(),
         resembles: resemblance(closed, observable, &column.name),
     };
-    Some(with_probabilities(record, hypothesis, curve))
+    Some(with_probabilities(record, curve, &rows))
+}
+
+/// The hypothesis without a curve.
+fn without<'a>(hypothesis: &Hypothesis<'a>, curve: &ColumnCurve) -> Hypothesis<'a> {
+    let mut bare = hypothesis.clone();
+    bare.curves.retain(|own| own.form.key(hypothesis.data) != curve.form.key(hypothesis.data));
+    bare
 }
 
 /// The unit of a parameter of a form over a column with this unit; empty where it is not known.
@@ -108,7 +120,7 @@ fn unit(of_parameter: &str, of_column: &'static str) -> &'static str {
 }
 
 /// The fitted rows under the hypothesis with its curves.
-fn with_curve<'b>(hypothesis: &Hypothesis<'b>) -> super::evaluation::Evaluation<'b> {
+fn with_curve<'b>(hypothesis: &Hypothesis<'b>) -> Evaluation<'b> {
     hypothesis.evaluate(hypothesis.data.fit.clone(), hypothesis.offsets()).with_fitted_scatter()
 }
 
@@ -119,13 +131,9 @@ fn quantile(hypothesis: &Hypothesis<'_>, closed: &ClosedForm) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(2.0, |law| law.inverse_cdf(0.975))
 }
 
-/// The probability of the form among all forms, and the others.
-fn with_probabilities(mut record: CauseForm, hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> CauseForm {
-    let mut bare = hypothesis.clone();
-    let data = hypothesis.data;
-    bare.curves.retain(|own| own.form.key(data) != curve.form.key(data));
-    let rows = bare.evaluate(data.fit.clone(), bare.offsets()).with_fitted_scatter();
-    let all: Vec<Rated> = forms(curve, &rows);
+/// The probability of the form among all forms on rows without the curve, and the others.
+fn with_probabilities(mut record: CauseForm, curve: &ColumnCurve, rows: &Evaluation<'_>) -> CauseForm {
+    let all: Vec<Rated> = forms(curve, rows);
     let best = |name: &str| {
         let own = all.iter().filter(|(form, _)| form.info.name == name).map(|(_, cost)| *cost);
         own.fold(f64::INFINITY, f64::min)

@@ -16,7 +16,7 @@ use super::part::{FittedPart, Part};
 use super::search::{descend, descend_to};
 use super::smooth::surface;
 use crate::dataset::ColumnValues;
-use nearwall::effect::{CurveForm, Term};
+use nearwall::effect::Term;
 use nearwall::model::Model;
 
 /// A part acts on an observable if it changes it by more than this share of its largest change.
@@ -241,10 +241,9 @@ impl<'a> Hypothesis<'a> {
             let alone = observables.iter().filter(|own| **own == curve.form.observable).count() == 1;
             let mut predicted = plain.plain(curve.form.observable).map(|(_, value)| value);
             let first = predicted.next().filter(|first| alone && predicted.all(|value| value == *first));
-            let factor = curve.closed.as_ref().filter(|closed| closed.acts == CurveForm::Times);
-            if let (Some(closed), Some(prediction)) = (factor, first) {
-                curve.closed = Some(closed.replacing(prediction));
-            }
+            let settled =
+                curve.closed.as_ref().zip(first).and_then(|(closed, value)| closed.replacing(value));
+            curve.closed = settled.or(curve.closed.take());
         }
     }
 

@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use super::candidate::{Addition, Candidate, Class, FURTHER, ScoredCandidate};
+use super::candidate::{Addition, Candidate, Class, FURTHER, SAME_CAUSE, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
 use super::data_split::DataSplit;
@@ -223,8 +223,13 @@ impl<'a> Explained for ImpactSearch<'a> {
         let below =
             if list.iter().any(is_ceiling) { self.below_ceiling(of, &scored, &prior) } else { Vec::new() };
         let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
+        let is_known = |one: &ScoredCandidate| {
+            let name = one.addition.name(hypothesis.data);
+            of.fitted.found.iter().any(|found| found.addition.name(hypothesis.data) == name)
+        };
         let beside = inside.map(|one| {
-            let log_prior = prior(one.addition.class(hypothesis.data), 0);
+            let class = one.addition.class(hypothesis.data);
+            let log_prior = if is_known(&one) { SAME_CAUSE.ln() } else { prior(class, 0) };
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
