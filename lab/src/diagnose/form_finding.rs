@@ -14,6 +14,9 @@ use nearwall::effect::CurveForm;
 /// Forms less probable than this are not listed [1].
 const LEAST_LISTED: f64 = 0.02;
 
+/// From this steepness on a threshold of capture is a step for a reader [1].
+const STEEP: f64 = 30.0;
+
 /// A law that a form over a column resembles.
 struct Resemblance {
     column: &'static str,
@@ -179,6 +182,13 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
             None => word.to_owned(),
         }
     };
+    if observable == Observable::Capture
+        && closed.free == [true, true, false, false]
+        && steepness(closed) > STEEP
+    {
+        let side = if closed.parameters[1] < 0.0 { "below" } else { "above" };
+        return format!("captured {side} {column} = {}", number(closed.parameters[0]));
+    }
     let formula = closed.info.equation.split(", ").next().unwrap_or_default();
     let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
     match closed.acts {
@@ -187,6 +197,12 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         CurveForm::Factor => format!("{name} = base (1 + {value})"),
         CurveForm::Times => format!("{name} = base ({value})"),
     }
+}
+
+/// How steep a threshold is [1]; 0 for another form.
+fn steepness(closed: &ClosedForm) -> f64 {
+    let place = closed.info.parameters.iter().position(|parameter| parameter.name == "n");
+    place.map_or(0.0, |place| closed.parameters[place].abs())
 }
 
 /// A formula with every word replaced.

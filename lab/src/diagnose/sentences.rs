@@ -104,7 +104,19 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
         ([one], _) => format!("The {subject} lacks {one}."),
         (several, _) => format!("The {subject} lacks {} effects: {}.", several.len(), several.join(", ")),
     };
-    if values.is_empty() { lacks } else { format!("{lacks} The data also support {values}.") }
+    let formulas = formulas(&diagnosis.findings);
+    let formula = if formulas.is_empty() { formulas } else { format!(" As a formula: {formulas}.") };
+    if values.is_empty() {
+        lacks + &formula
+    } else {
+        format!("{lacks}{formula} The data also support {values}.")
+    }
+}
+
+/// The equations of all closed forms.
+fn formulas(findings: &[Finding]) -> String {
+    let forms = findings.iter().flat_map(|finding| &finding.forms);
+    forms.map(|form| form.equation.as_str()).collect::<Vec<_>>().join("; ")
 }
 
 /// A probability in words.
