@@ -194,15 +194,15 @@ def summary(results):
     claims = lambda _, said: said["claims"]
 
     def count(label, some, test):
-        return [label, *(f"{sum(test(case, r[m]) for case, r in some)} of {len(some)}" for m in METHODS)]
+        return [label, *(f"{sum(test(case, r[m]) for case, r in some)}/{len(some)}" for m in METHODS)]
 
     def middle(label, some, key="error", quantile=0.5):
         return [label, *(f"{np.quantile([r[m][key] for _, r in some], quantile):.2f}" for m in METHODS)]
 
     rows = [
-        count("nulls with a claim", nulls, claims),
-        count("columns right, `v_n/d`", foreign, right),
         middle("error, `v_n/d`", foreign),
+        count("columns right, `v_n/d`", foreign, right),
+        count("nulls with a claim", nulls, claims),
         count("columns right, groups", plants, right),
         count("group named", plants, named)[:2] + [""] * (len(METHODS) - 1),
         *[middle(f"error, {form}", [r for r in plants if r[0]["form"] == form]) for form in FORMS],
@@ -240,18 +240,19 @@ def write(options, results):
 
 
 SECTION = """
-{date}; seed {seed}; {versions}.{earlier}
-
+{date}; seed {seed}; {versions}.
+{earlier}
 Sets of `v_n`, `d`, `mu_p` and `e_n` = f(group): We, Re, Oh, Ca, K; power, exponential, logistic; 100
 and 300 rows, noise 0.02 and 0.06; {nulls} nulls; and 6 of `v_n/d`, which is in no list. Columns are
 right if exactly those of the law change the prediction of 1000 fresh rows when shuffled. The error
 is that against the law without noise, root mean square, divided by the noise; medians. Operon has
 three times the evaluations of above, and once the five groups as columns; PySINDY is thresholded
-least squares on cubics of the logarithms. PySR did not install: it fetches Julia.
+least squares on cubics of the logarithms. PySR could not fetch Julia.
 
 {summary}
 
-Groups and forms are nearwall's own list.
+Groups and forms are of nearwall's own lists. Other laws it approximates by single
+columns, a surface or another group: there Operon is the measure.
 """
 
 

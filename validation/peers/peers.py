@@ -24,7 +24,7 @@ METHODS = ["nearwall", "Operon", "lasso"]
 TRIM = 0.95
 # Where the section of groups.py begins, and what it says of this script's table.
 GROUPS_HEADING = "\n## Laws of a group\n"
-EARLIER = " The table above is of an earlier version."
+EARLIER = "The table above is of an earlier version.\n"
 
 
 def error(measured, predicted):
