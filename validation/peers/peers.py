@@ -22,6 +22,9 @@ from planted_set import REPOSITORY, read
 METHODS = ["nearwall", "Operon", "lasso"]
 # Rows with the largest errors are left out of an error: the sets have 2 % of gross errors.
 TRIM = 0.95
+# Where the section of groups.py begins, and what it says of this script's table.
+GROUPS_HEADING = "\n## Laws of a group\n"
+EARLIER = "The table above is of an earlier version.\n"
 
 
 def error(measured, predicted):
@@ -120,40 +123,46 @@ def families(results):
     return table(["family", "sets", "planted in", *METHODS], rows)
 
 
-PAGE = """# Peers: a symbolic regressor and a sparse regression beside `nearwall diagnose`
+PAGE = """# Peers: other regressions beside `nearwall diagnose`
 
-Written by one command, not by CI, which also prints the table by family of sets:
+Written by two commands, not by CI, which also print more detail:
 
 ```sh
 NEARWALL_TEST_SEED={set_seed} NEARWALL_PLANTED_OUT=SETS cargo test --release --test planted_effects -- --ignored write_sets
 validation/peers/run SETS --set-seed {set_seed}
+validation/peers/run groups
 ```
+
+## Planted effects
 
 {date}; {count} sets; seed {seed} of the methods; {versions}.
 
-Each set is a CSV file and a base model that lacks the planted effect. The last quarter of the rows
-is held out from all three methods. On the other rows
+Each set is a CSV file and a base model without the planted effect. The last quarter of the rows is
+held out. On the others
 
 - `nearwall diagnose` runs as it is, and its `extended.toml` predicts the held-out rows;
-- Operon (genetic programming with fitted constants, formulas of up to 30 symbols) and a lasso on a
-  library of terms (powers, roots, logarithms, inverses, products, labels, each also times the base
-  prediction) regress what the base model leaves of `e_n`, of `e_t` and of the outcome. Residuals
-  beyond 6 robust deviations are pulled in.
+- Operon (genetic programming, formulas of up to 30 symbols) and a lasso on a library of terms
+  (powers, roots, logarithms, inverses, products, labels, each also times the base prediction)
+  regress what the base model leaves. Residuals beyond 6 robust deviations are pulled in.
 
-A regression claims to have found something if it beats a constant by more than one standard error
-of its five-fold cross-validation. The most important column is the one whose shuffling raises the
-error most, and for nearwall the columns of its first finding; it is right if the planted effect has
-it as an input (some effects act on every impact and have no such column). The error is the root
-mean square of the smaller 95 % of the held-out errors in the planted effect's observable, divided
-by that of the base model; 1.00 where nothing is claimed.
+A regression claims something if it beats a constant by one standard error of its five-fold
+cross-validation. The most important column is the one whose shuffling raises the error most, for
+nearwall the columns of its first finding; right: an input of the planted effect. The error is the
+root mean square of the smaller 95 % of the held-out errors, divided by that of the base model.
 
 {summary}
 
-nearwall is told the candidate laws, and every planted effect but the unknown columns has a relative
-among them; so it searches a few parameters, names a cause, and its silence on null sets costs
-little power. The peers are told the columns only and must find shape and column at once: where the
-law is in no library, they are the measure.
+nearwall is told the candidate laws, and all planted effects but the unknown columns have a relative
+among them, so its silence on null sets costs little power. The peers must find shape and column at
+once: where the law is in no library, they are the measure.
 """
+
+
+def versions(*packages):
+    command = ["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"]
+    revision = run(command, capture_output=True, text=True).stdout.strip()
+    listed = ", ".join(f"{name} {version(name)}" for name in packages)
+    return f"nearwall {revision}, {listed}, Python {platform.python_version()}"
 
 
 def line(result):
@@ -182,18 +191,18 @@ def main():
             results.append(result)
             print(line(result), flush=True)
 
-    command = ["git", "-C", str(REPOSITORY), "rev-parse", "--short", "HEAD"]
-    revision = run(command, capture_output=True, text=True).stdout.strip()
-    packages = ", ".join(f"{name} {version(name)}" for name in ["pyoperon", "scikit-learn", "numpy"])
     text = PAGE.format(
         date=date.today(),
         count=len(results),
         seed=options.seed,
         set_seed=options.set_seed,
-        versions=f"nearwall {revision}, {packages}, Python {platform.python_version()}",
+        versions=versions("pyoperon", "scikit-learn", "numpy"),
         summary=summary(results),
     )
-    options.out.write_text(text)
+    # The section of groups.py stays.
+    before = options.out.read_text() if options.out.exists() else ""
+    section = before[before.find(GROUPS_HEADING) :].replace(EARLIER, "") if GROUPS_HEADING in before else ""
+    options.out.write_text(text + section)
     print(f"\n{families(results)}\n\n{summary(results)}\n\n{len(results)} sets in {time.monotonic() - start:.0f} s; wrote {options.out}")
 
 
