@@ -330,6 +330,7 @@ fn forms_set_add_and_multiply() {
     close(e_n(&form("e_n", "power", power)), 0.2);
     close(e_n(&form("e_n", "power", &format!("{power}\nacts = \"add\""))), 0.7);
     close(e_n(&form("e_n", "power", &format!("{power}\nacts = \"factor\""))), 0.6);
+    close(e_n(&form("e_n", "power", &format!("{power}\nacts = \"times\""))), 0.1);
     close(e_n(&form("e_n", "exponential", "a = 0.6\nx_0 = 100\nfloor = 0.1")), 0.320727664702865);
     close(e_n(&form("e_n", "saturating", "a = 0.9\nx_0 = 50")), 0.6);
     close(e_n(&form("e_n", "line", "a = 0.9\nb = -0.002")), 0.7);
@@ -433,7 +434,7 @@ fn errors_name_the_key_and_the_remedy() {
     part(fault(&form("e_n", "exponential", "a = 1\nx_0 = -3")), &["effects[1].x_0", "above 0"]);
     part(
         fault(&form("e_n", "constant", "a = 1\nacts = \"replace\"")),
-        &["effects[1].acts", "known here: add, factor, set"],
+        &["effects[1].acts", "known here: add, factor, times, set"],
     );
     part(fault(&form("e_m", "constant", "a = 1")), &["effects[1].on", "known here: e_n, e_t, capture"]);
     let constant = form("e_n", "constant", "a = 1");
