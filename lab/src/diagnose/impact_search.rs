@@ -10,7 +10,6 @@ use std::collections::BTreeMap;
 use super::candidate::{Addition, Candidate, Class, FURTHER, SAME_CAUSE, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
-use super::curve::ColumnCurveForm;
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
@@ -149,57 +148,25 @@ impl<'a> ImpactSearch<'a> {
         scored: &[ScoredCandidate],
         prior: &dyn Fn(Class, usize) -> f64,
     ) -> Vec<ImpactExplanation<'a>> {
-        let hypothesis = &of.fitted.hypothesis;
-        let (constant, all) = (CaptureConstant::Ceiling, hypothesis.captures.free());
-        let addition = Addition::Captures { constant, all, others: hypothesis.parts.clone() };
-        let ceiling = self.unproven(of, addition, prior(Class::Noise, 0));
-        self.laws_beside(&self.beside(of, ceiling), scored, prior)
-    }
-
-    /// The base model with a constant error of all `e_n` and each of the laws that gain most: a law beside a bias
-    /// alone is worse than a curve, and would not be pursued.
-    fn beside_bias(
-        &self,
-        of: &ImpactExplanation<'a>,
-        scored: &[ScoredCandidate],
-        prior: &dyn Fn(Class, usize) -> f64,
-    ) -> Vec<ImpactExplanation<'a>> {
-        let hypothesis = &of.fitted.hypothesis;
-        let level = ColumnCurveForm::level(Observable::NormalRestitution, false);
-        let rows = hypothesis.evaluate(&*hypothesis.data.search, hypothesis.offsets()).with_fitted_scatter();
-        let Some(level) = level.fit(&rows).filter(|_| of.fitted.found.is_empty()) else { return Vec::new() };
-        let bias = self.unproven(of, Addition::Curve(level), prior(Class::Level, 0));
-        self.laws_beside(&self.beside(of, bias), scored, prior)
-    }
-
-    /// An addition with what it gains on the rows of the search.
-    fn unproven(&self, of: &ImpactExplanation<'a>, addition: Addition, log_prior: f64) -> ScoredCandidate {
-        let hypothesis = &of.fitted.hypothesis;
-        let before = self.grounds[of.fitted.ground].scores(hypothesis);
-        let mut with = hypothesis.clone();
-        addition.add_to(&mut with);
-        let after = self.grounds[of.fitted.ground].scores(&with);
-        let share = addition.freedom() / before.len().max(1) as f64;
-        let differences = after.iter().zip(&before).map(|(after, before)| after - before - share).collect();
-        ScoredCandidate::unproven(addition, differences, log_prior)
-    }
-
-    /// An explanation with each of the laws that gain most of these, fitted together.
-    fn laws_beside(
-        &self,
-        of: &ImpactExplanation<'a>,
-        scored: &[ScoredCandidate],
-        prior: &dyn Fn(Class, usize) -> f64,
-    ) -> Vec<ImpactExplanation<'a>> {
         let mut laws: Vec<(f64, Candidate)> = scored.iter().filter_map(ScoredCandidate::plain_law).collect();
         laws.sort_by(|a, b| b.0.total_cmp(&a.0));
         let laws: Vec<Candidate> = laws.into_iter().take(self.refitted).map(|(_, law)| law).collect();
         let hypothesis = &of.fitted.hypothesis;
-        let round = CandidateRound::new(hypothesis);
+        let before = self.grounds[of.fitted.ground].scores(hypothesis);
+        let all = hypothesis.captures.free();
+        let addition =
+            Addition::Captures { constant: CaptureConstant::Ceiling, all, others: hypothesis.parts.clone() };
+        let bare = Hypothesis { captures: all, ..hypothesis.clone() };
+        let after = self.grounds[of.fitted.ground].scores(&bare);
+        let share = 1.0 / before.len().max(1) as f64;
+        let differences = after.iter().zip(&before).map(|(after, before)| after - before - share).collect();
+        let ceiling = ScoredCandidate::unproven(addition, differences, prior(Class::Noise, 0));
+        let below = self.beside(of, ceiling);
+        let round = CandidateRound::new(&below.fitted.hypothesis);
         let inside = round.score(&laws, &|_| ()).into_iter().filter(|one| !one.addition.at_bound());
         let with = inside.map(|one| {
             let log_prior = prior(one.addition.class(hypothesis.data), 1);
-            self.refitted(of, self.beside(of, ScoredCandidate { log_prior, ..one }))
+            self.refitted(&below, self.beside(&below, ScoredCandidate { log_prior, ..one }))
         });
         with.collect()
     }
@@ -253,16 +220,8 @@ impl<'a> Explained for ImpactSearch<'a> {
         };
         let scored = round.score(&list, self.progress);
         let is_ceiling = |one: &Candidate| matches!(one, Candidate::Captures(CaptureConstant::Ceiling));
-        let is_bias = |one: &Candidate| {
-            matches!(one, Candidate::Curve { sides: [None, None], observable: Observable::NormalRestitution })
-        };
-        let mut joined = Vec::new();
-        if list.iter().any(is_ceiling) {
-            joined.extend(self.below_ceiling(of, &scored, &prior));
-        }
-        if list.iter().any(is_bias) {
-            joined.extend(self.beside_bias(of, &scored, &prior));
-        }
+        let below =
+            if list.iter().any(is_ceiling) { self.below_ceiling(of, &scored, &prior) } else { Vec::new() };
         let inside = scored.into_iter().filter(|one| !one.addition.at_bound());
         let is_known = |one: &ScoredCandidate| {
             let name = one.addition.name(hypothesis.data);
@@ -276,7 +235,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
         all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
         let rest = all.split_off(all.len().min(self.refitted));
-        let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(joined);
+        let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(below);
         let mut found: Vec<_> = refitted.chain(rest).collect();
         let at_bound =
             |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
