@@ -11,6 +11,7 @@ use super::evaluation::Evaluation;
 use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::observable::Observable;
 use super::part::{FittedPart, Part};
+use nearwall::effect::FORMS;
 
 /// Largest correction for skewness, as a share of the mean.
 const LARGEST_SKEW: f64 = 0.3;
@@ -167,6 +168,14 @@ impl Addition {
             Self::Part { part, .. } => Candidate::Part(part.part).class(data),
             Self::Curve(curve) => Class::of_columns(curve.form.sides.iter().map(|side| side.0), data),
             Self::ScatterTrend(_) | Self::Captures { .. } => Class::Noise,
+        }
+    }
+
+    /// Logarithm of the prior probability of its shape: closed forms share that of the free curve [nats].
+    pub fn shape_prior(&self) -> f64 {
+        match self {
+            Self::Curve(ColumnCurve { closed: Some(_), .. }) => -(FORMS.len() as f64).ln(),
+            _ => 0.0,
         }
     }
 

@@ -22,7 +22,7 @@ const FINE_PLACES: usize = 80;
 /// Range of the exponent of a power [1].
 const EXPONENTS: [f64; 2] = [-4.0, 4.0];
 /// Range of the steepness of a threshold [1].
-const STEEPNESS: [f64; 2] = [1.0, 2000.0];
+const STEEPNESS: [f64; 2] = [1.0, 200.0];
 /// A scale of the column may lie beyond its range by this factor [1].
 const BEYOND: f64 = 10.0;
 /// Points that choose among these places.

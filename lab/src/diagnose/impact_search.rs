@@ -229,7 +229,8 @@ impl<'a> Explained for ImpactSearch<'a> {
         };
         let beside = inside.map(|one| {
             let class = one.addition.class(hypothesis.data);
-            let log_prior = if is_known(&one) { SAME_CAUSE.ln() } else { prior(class, 0) };
+            let cause = if is_known(&one) { SAME_CAUSE.ln() } else { prior(class, 0) };
+            let log_prior = cause + one.addition.shape_prior();
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
