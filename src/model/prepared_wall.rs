@@ -1,8 +1,8 @@
 //! The steps of an impact on a prepared wall: what model and wall decide is computed when the model is read.
 //!
 //! A wall is prepared when every effect of the model has a precomputed form ([`Precomputed`]),
-//! particles are no droplets, and the model file declares no inputs and no range of a group. The contact of particle and
-//! wall is the same for all impacts ([`PreparedImpact`] with `CONSTANT`), or it varies
+//! particles are no droplets, and the model file declares no inputs and no range of a group. The
+//! contact of particle and wall is the same for all impacts ([`PreparedImpact`] with `CONSTANT`), or it varies
 //! ([`VaryingContact`]): properties over temperature, char that becomes ash, slag, powder. Both
 //! follow the same steps, alone and in blocks (`prepared_block.rs`). The steps have no branches, so
 //! the compiler turns a loop over a block into vector instructions; only a law by name is called

@@ -8,7 +8,7 @@ use nearwall::{Impact, ImpactRng, Model, Outcome};
 
 use crate::common::random::seed;
 
-const PLAIN: &str = r#"
+pub const PLAIN: &str = r#"
 [particle]
 material = "montan-wax"
 [walls.default]
@@ -21,11 +21,11 @@ model = "constant"
 e_t = 0.8
 "#;
 
-fn model(text: &str) -> Model {
+pub fn model(text: &str) -> Model {
     Model::from_toml("m.toml", &format!("{PLAIN}{text}")).unwrap()
 }
 
-fn fault(text: &str) -> String {
+pub fn fault(text: &str) -> String {
     Model::from_toml("m.toml", &format!("{PLAIN}{text}")).unwrap_err().to_string()
 }
 

@@ -7,32 +7,13 @@ use nearwall::model::block::{Block, Outcomes, Workspace};
 use nearwall::tangential::critical_angle;
 use nearwall::{Impact, ImpactRng, Model, Outcome};
 
-const PLAIN: &str = r#"
-[particle]
-material = "montan-wax"
-[walls.default]
-material = "pyrex"
-[normal]
-model = "constant"
-e_n = 0.5
-[tangential]
-model = "constant"
-e_t = 0.8
-"#;
+use crate::fitted_curves::{PLAIN, fault, model};
 
 const WEBER: &str = "[[effects]]\nkind = \"fitted-curve\"\ninput = \"We\"\non = \"e_n\"\n\
                      knots = [50, 150]\nvalues = [0, 0.2]\n";
 
 fn read(text: &str) -> Model {
     Model::from_toml("m.toml", text).unwrap()
-}
-
-fn model(text: &str) -> Model {
-    read(&format!("{PLAIN}{text}"))
-}
-
-fn fault(text: &str) -> String {
-    Model::from_toml("m.toml", &format!("{PLAIN}{text}")).unwrap_err().to_string()
 }
 
 /// Molten wax of 120 µm at 5 m/s and 120 °C.

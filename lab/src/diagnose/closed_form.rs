@@ -11,7 +11,7 @@ use super::curve::ColumnCurve;
 use super::evaluation::Evaluation;
 use super::likelihood::{capture_odds, visible_capture};
 use super::observable::Observable;
-use super::search::{SearchAxis, best_of, descend};
+use super::search::{SearchAxis, best_of, descend, grid};
 use crate::dataset::ColumnValues;
 use nearwall::effect::{CurveForm, FORMS, FormInfo};
 
@@ -145,10 +145,6 @@ struct Kind {
 }
 
 impl Kind {
-    fn nonlinear(&self) -> Vec<usize> {
-        nonlinear(self.info)
-    }
-
     /// The parameters at their defaults, 0 without one.
     fn defaults(&self) -> Vec<f64> {
         self.info.parameters.iter().map(|parameter| parameter.default.unwrap_or(0.0)).collect()
@@ -180,8 +176,9 @@ fn intercepts(form: &FormInfo) -> &'static [&'static str] {
 struct Point {
     /// Value of the column over [`Points::unit`] [1].
     x: f64,
-    /// What a form has to give if it is added, multiplied, and set; of capture the share captured.
+    /// Measured minus predicted value [1]; of capture the share captured.
     residual: f64,
+    /// Predicted value [1]; not used for captures.
     predicted: f64,
     /// One over the variance; of capture the number of impacts.
     weight: f64,
@@ -281,7 +278,7 @@ impl Points {
             _ if self.positive => SearchAxis::logarithmic(low, BEYOND * high),
             _ => SearchAxis::logarithmic(high / 50.0, BEYOND * high),
         };
-        kind.nonlinear().into_iter().map(axis).collect()
+        nonlinear(kind.info).into_iter().map(axis).collect()
     }
 
     /// The best parameters of a form; `None` where there are too few points.
@@ -309,7 +306,7 @@ impl Points {
 
     /// Parameters with the column in its own unit.
     fn in_units(&self, kind: &Kind, parameters: Vec<f64>) -> Vec<f64> {
-        let exponent = kind.nonlinear().first().map_or(0.0, |place| parameters[*place]);
+        let exponent = nonlinear(kind.info).first().map_or(0.0, |place| parameters[*place]);
         let scaled = |(parameter, value): (&nearwall::effect::Parameter, f64)| match parameter.unit {
             "input" => value * self.unit,
             "1/input" => value / self.unit,
@@ -322,7 +319,7 @@ impl Points {
     /// Parameters and minus the log likelihood of `e_n` or `e_t` [nats], with a scatter that fits.
     fn fit_readings(&self, kind: &Kind) -> Option<(Vec<f64>, f64)> {
         let axes = self.axes(kind);
-        let nonlinear = kind.nonlinear();
+        let nonlinear = nonlinear(kind.info);
         let solved = |at: &[f64], step: usize| {
             let mut parameters = kind.defaults();
             let values = axes.iter().zip(at).map(|(axis, at)| axis.value(*at));
@@ -349,7 +346,7 @@ impl Points {
 
     /// The linear parameters by least squares over every `step`th point, and the sum of weighted squares [1].
     fn solve(&self, kind: &Kind, mut parameters: Vec<f64>, step: usize) -> Option<(Vec<f64>, f64)> {
-        let nonlinear = kind.nonlinear();
+        let nonlinear = nonlinear(kind.info);
         let linear: Vec<usize> =
             (0..kind.free.len()).filter(|p| kind.free[*p] && !nonlinear.contains(p)).collect();
         linear.iter().for_each(|place| parameters[*place] = 0.0);
@@ -396,7 +393,7 @@ impl Points {
     /// The same for a threshold that rises or falls.
     fn fit_threshold(&self, kind: &Kind, sign: f64) -> Option<(Vec<f64>, f64)> {
         let mut axes = self.axes(kind);
-        let mut places = kind.nonlinear();
+        let mut places = nonlinear(kind.info);
         let further =
             (0..kind.free.len()).filter(|p| kind.free[*p] && !places.contains(p)).collect::<Vec<_>>();
         let starts = grid(axes.len(), PLACES[1]).into_iter().map(|mut at| {
@@ -470,7 +467,7 @@ impl Points {
     /// Intervals of the place and the steepness of a threshold of captures, from their probability on a grid.
     fn credible(&self, closed: &ClosedForm) -> Vec<[f64; 2]> {
         let kind = Kind { info: closed.info, acts: closed.acts, free: closed.free.clone() };
-        let (axes, places) = (self.axes(&kind), kind.nonlinear());
+        let (axes, places) = (self.axes(&kind), nonlinear(kind.info));
         let grid = grid(axes.len(), FINE_PLACES);
         let parameters = |at: &[f64]| {
             let mut parameters = closed.parameters.clone();
@@ -518,13 +515,4 @@ fn variants(info: &'static FormInfo, acts: CurveForm) -> Vec<Kind> {
         Kind { info, acts, free }
     };
     (0..1 << optional.len()).map(of).collect()
-}
-
-/// The places of a grid with so many steps along each coordinate.
-fn grid(dimensions: usize, steps: usize) -> Vec<Vec<f64>> {
-    let place = |index: usize| {
-        let digit = |axis: usize| (index / steps.pow(axis as u32)) % steps;
-        (0..dimensions).map(|axis| (digit(axis) as f64 + 0.5) / steps as f64).collect()
-    };
-    (0..steps.pow(dimensions as u32)).map(place).collect()
 }

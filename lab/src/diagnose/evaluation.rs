@@ -251,18 +251,14 @@ impl<'a> Evaluation<'a> {
 
     /// Number of impacts, share captured and predicted share of the rows whose outcome is known, each [1].
     fn outcomes(&self) -> impl Iterator<Item = [f64; 3]> {
-        let rebound = |row: &Measurement| row.is_unstated_rebound().then_some(0.0);
-        self.means().filter_map(move |(row, mean)| {
-            Some([row.impacts, row.captured.or_else(|| rebound(row))?, mean.capture])
-        })
+        self.means().filter_map(|(row, mean)| Some([row.impacts, known_share(row)?, mean.capture]))
     }
 
     /// Index, number of impacts and share captured [1] of the rows whose outcome is known.
     pub fn shares(&self) -> impl Iterator<Item = (usize, [f64; 2])> {
-        let rebound = |row: &Measurement| row.is_unstated_rebound().then_some(0.0);
-        self.rows.iter().filter_map(move |&index| {
+        self.rows.iter().filter_map(|&index| {
             let row = &self.data.rows[index];
-            Some((index, [row.impacts, row.captured.or_else(|| rebound(row))?]))
+            Some((index, [row.impacts, known_share(row)?]))
         })
     }
 
@@ -373,4 +369,9 @@ impl<'a> Evaluation<'a> {
         };
         self.each().filter_map(point).collect()
     }
+}
+
+/// The share of a row's impacts that were captured [1]; `None` where the outcome is not known.
+fn known_share(row: &Measurement) -> Option<f64> {
+    row.captured.or_else(|| row.is_unstated_rebound().then_some(0.0))
 }

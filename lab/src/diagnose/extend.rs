@@ -100,7 +100,7 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
     curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid_over(data, curve))
 }
 
-/// A closed form as an effect, with the intervals of its parameters.
+/// A closed form as an effect.
 fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &str) -> Table {
     let mut table = Table::from_iter([("kind", value("fitted-form")), ("on", value(on))]);
     table.insert("form", value(closed.info.name));
@@ -114,13 +114,14 @@ fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &
     table
 }
 
-/// The range of every input that varies in the fitted rows, and of the groups of a curve.
+/// The range of every input that varies in the fitted rows, and of the groups and further columns of a curve.
 fn valid_over(data: &DataSplit, curve: &ColumnCurve) -> InlineTable {
     let columns = curve.form.sides.iter().map(|(column, _)| &data.covariates[*column]);
-    let groups = columns.filter(|column| !column.is_input());
-    let groups = ranges(groups.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))));
+    let further = columns.filter(|column| !column.is_input());
+    let further =
+        ranges(further.filter_map(|column| Some((column.name.as_str(), data.range(&column.name)?))));
     let mut all = valid(data);
-    all.extend(groups);
+    all.extend(further);
     all
 }
 

@@ -79,7 +79,8 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
     let observable = curve.form.observable;
-    let bare = without(hypothesis, curve);
+    let mut bare = hypothesis.clone();
+    bare.remove_curve(curve);
     let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
     // The data do not know that the defaults are right.
     let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
@@ -101,13 +102,6 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
         resembles: resemblance(closed, observable, &column.name),
     };
     Some(with_probabilities(record, curve, &rows))
-}
-
-/// The hypothesis without a curve.
-fn without<'a>(hypothesis: &Hypothesis<'a>, curve: &ColumnCurve) -> Hypothesis<'a> {
-    let mut bare = hypothesis.clone();
-    bare.curves.retain(|own| own.form.key(hypothesis.data) != curve.form.key(hypothesis.data));
-    bare
 }
 
 /// The unit of a parameter of a form over a column with this unit; empty where it is not known.

@@ -247,6 +247,12 @@ impl<'a> Hypothesis<'a> {
         }
     }
 
+    /// Takes out the curve over the same columns of the same observable.
+    pub fn remove_curve(&mut self, curve: &ColumnCurve) {
+        let data = self.data;
+        self.curves.retain(|own| own.form.key(data) != curve.form.key(data));
+    }
+
     /// Fits the constant rate of captures, if there is one; 0 where a curve of capture takes its place.
     fn fit_rate(&mut self, rows: &[usize]) {
         if !self.captures.has(CaptureConstant::Rate) {

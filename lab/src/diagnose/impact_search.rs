@@ -260,7 +260,7 @@ impl<'a> Explained for ImpactSearch<'a> {
                 return None;
             }
             new.fitted.found.remove(place);
-            remove(&mut new.fitted.hypothesis, removed, data);
+            remove(&mut new.fitted.hypothesis, removed);
             new.log_prior -= log_prior;
             new.fitted.hypothesis.fit_with_discrepancy();
             Some(self.with_or_without_remainder(new))
@@ -279,15 +279,13 @@ fn moved(scores: &[f64], before: &[f64], after: &[f64]) -> Vec<f64> {
 }
 
 /// Removes an addition from a hypothesis.
-fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition, data: &DataSplit) {
+fn remove(hypothesis: &mut Hypothesis<'_>, addition: &Addition) {
     match addition {
         Addition::Part { part, .. } => {
             let name = part.part.name();
             hypothesis.parts.retain(|own| own.part.name() != name);
         }
-        Addition::Curve(curve) => {
-            hypothesis.curves.retain(|own| own.form.key(data) != curve.form.key(data));
-        }
+        Addition::Curve(curve) => hypothesis.remove_curve(curve),
         Addition::ScatterTrend(trend) => {
             hypothesis.scatter_trends.retain(|own| own.covariate != trend.covariate);
         }

@@ -135,6 +135,15 @@ pub(super) fn best_of(cost: impl Fn(&[f64]) -> f64, places: &[Vec<f64>], count: 
     all.into_iter().take(count).map(|(place, _)| place.clone()).collect()
 }
 
+/// The places of a grid with so many steps along each coordinate.
+pub(super) fn grid(dimensions: usize, steps: usize) -> Vec<Vec<f64>> {
+    let place = |index: usize| {
+        let digit = |axis: usize| (index / steps.pow(axis as u32)) % steps;
+        (0..dimensions).map(|axis| (digit(axis) as f64 + 0.5) / steps as f64).collect()
+    };
+    (0..steps.pow(dimensions as u32)).map(place).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

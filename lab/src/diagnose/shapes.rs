@@ -11,11 +11,14 @@ use super::likelihood::{Mean, Offset, mean};
 use super::observable::Observable;
 use super::part::{FittedPart, Part};
 use super::score_test::Shapes;
+use super::search::grid;
 use super::smooth::Basis;
 use crate::dataset::ColumnValues;
 
 /// Largest ratio of likelihoods under two distributions, so that no single row decides.
 const LARGEST_LIKELIHOOD_RATIO: f64 = 20.0;
+/// Places along each coordinate of a grid, by their number.
+const GRID_STEPS: [usize; 5] = [1, 16, 8, 4, 3];
 /// Largest square of a standardised residual.
 const LARGEST_SQUARE: f64 = 9.0;
 
@@ -72,7 +75,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         };
         let blank = FittedPart::middle(part, axes);
         let both_signs = matches!(part, Part::LawParameter(_));
-        let at = grid(blank.axes.len());
+        let at = grid(blank.axes.len(), GRID_STEPS[blank.axes.len().min(GRID_STEPS.len() - 1)]);
         let place = |at: &Vec<f64>| FittedPart { at: at.clone(), ..blank.clone() };
         if part.is_stochastic() {
             let (scores, gains) = at.iter().map(|at| self.of_distribution(&place(at))).unzip();
@@ -246,16 +249,6 @@ fn level_blanks(function: &mut [f64], blank: &[bool]) {
     let stated = || function.iter().zip(blank).filter(|(_, blank)| !**blank).map(|(value, _)| *value);
     let mean = stated().sum::<f64>() / stated().count().max(1) as f64;
     function.iter_mut().zip(blank).filter(|(_, blank)| **blank).for_each(|(value, _)| *value = mean);
-}
-
-/// The places of a grid over this many coordinates.
-fn grid(dimensions: usize) -> Vec<Vec<f64>> {
-    let steps = [1, 16, 8, 4, 3][dimensions.min(4)];
-    let place = |index: usize| {
-        let digit = |axis: usize| (index / usize::pow(steps, axis as u32)) % steps;
-        (0..dimensions).map(|axis| (digit(axis) as f64 + 0.5) / steps as f64).collect()
-    };
-    (0..usize::pow(steps, dimensions as u32)).map(place).collect()
 }
 
 /// Ranks from -1 to 1; equal values have equal ranks.
