@@ -6,7 +6,7 @@ use super::column::{ColumnCells, ColumnValues};
 use super::column_map::ColumnMap;
 use super::column_names::{CAPTURES, DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
-use super::headings;
+use super::headings::{self, FoundColumn};
 use super::impact_velocity::{AngleColumn, ImpactVelocity};
 use super::input_errors::InputErrorColumns;
 use super::inputs::InputColumns;
@@ -16,6 +16,7 @@ use super::number::{NamedColumns, is_blank};
 use super::observed::ObservedCells;
 use super::row_error::RowFault;
 use super::selection::{RowSelection, Ticket};
+use super::unit::Unit;
 use super::{BadRow, DatasetError, WallChoice};
 use nearwall::impact::{INPUTS, Impact};
 
@@ -66,11 +67,13 @@ impl<'a> Builder<'a> {
         let inputs = InputColumns::new(|name| named.column(name));
         let style = table.style();
         let unnamed = |name: &str| {
-            let own = |(index, header): &(usize, &str)| *header == name && named.name_of(*index).is_none();
-            headers.iter().enumerate().find(own).map(|(index, _)| index).filter(|_| !map.ignores(name))
+            let found = headings::find_further(name, headers)?;
+            let is_free = named.name_of(found.index).is_none() && !map.ignores(&headers[found.index]);
+            is_free.then_some(found)
         };
         let inputs = inputs.with_extra(walls.model().extra_inputs(), style, |name| {
-            named.index(name).or_else(|| unnamed(name))
+            let index = named.index(name).map(|index| FoundColumn { index, unit: Unit::SI });
+            index.or_else(|| unnamed(name))
         });
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
@@ -408,7 +411,11 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) ->
         Some(_) => None,
         None if map.ignores(header) => None,
         None if of_parcels(header) && !map.reads_labels(header) => None,
-        None => Some((index, ColumnCells::new(header, map.reads_labels(header)))),
+        None if map.reads_labels(header) => Some((index, ColumnCells::new(header, true))),
+        None => {
+            let cells = ColumnCells::new(header, false).with_unit(headings::further(header, headers));
+            Some((index, cells))
+        }
     };
     headers.iter().enumerate().filter_map(cause).collect()
 }

@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeSet, HashMap};
 
+use super::any_unit::AnyUnit;
 use super::number::is_blank;
 
 /// A column that is not an input of the model.
@@ -9,6 +10,8 @@ use super::number::is_blank;
 pub struct DataColumn {
     /// Its name in the file; `wall` and `series` by nearwall's name.
     pub name: String,
+    /// SI unit of its numbers; empty where the heading states none.
+    pub unit: &'static str,
     /// One value for each usable row.
     pub values: ColumnValues,
 }
@@ -16,7 +19,7 @@ pub struct DataColumn {
 /// The cells of a [`DataColumn`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ColumnValues {
-    /// Numbers in the file's own unit, NaN where the cell is blank.
+    /// Numbers in SI units where the heading states a unit, NaN where the cell is blank.
     Numbers(Vec<f64>),
     /// Categories.
     Labels {
@@ -34,6 +37,9 @@ const MOST_LABELS: usize = 1000;
 #[derive(Debug, Clone)]
 pub(super) struct ColumnCells {
     name: String,
+    /// The heading, and the unit that it states.
+    heading: String,
+    unit: Option<AnyUnit>,
     /// Whether its numbers are labels.
     as_labels: bool,
     /// Number of cells that are not blank, and of numbers among them; of all rows, kept or not.
@@ -54,6 +60,8 @@ impl ColumnCells {
     pub(super) fn new(name: &str, as_labels: bool) -> Self {
         Self {
             name: name.to_owned(),
+            heading: name.to_owned(),
+            unit: None,
             as_labels,
             filled: 0,
             numbers: 0,
@@ -62,6 +70,11 @@ impl ColumnCells {
             text: String::new(),
             ends: Vec::new(),
         }
+    }
+
+    /// The same with the name and the unit that its heading states.
+    pub(super) fn with_unit(self, (name, unit): (&str, Option<AnyUnit>)) -> Self {
+        Self { name: name.to_owned(), unit, ..self }
     }
 
     /// Takes note of the cell of a usable row; `parse` reads one number.
@@ -110,14 +123,21 @@ impl ColumnCells {
         parse: impl Fn(&str) -> Option<f64>,
     ) -> (DataColumn, Option<(u64, String)>) {
         let invalid = self.invalid.take();
-        let values = if self.filled > 0 && invalid.is_none() { self.numbers(parse) } else { self.labels() };
+        let is_number = self.filled > 0 && invalid.is_none();
         let invalid = invalid.filter(|_| 2 * self.numbers > self.filled);
-        (DataColumn { name: self.name, values }, invalid)
+        if is_number {
+            let (values, unit) = (self.numbers(parse), self.unit.map_or("", |unit| unit.si));
+            return (DataColumn { name: self.name, unit, values }, invalid);
+        }
+        // Words have no unit.
+        let values = self.labels();
+        (DataColumn { name: self.heading, unit: "", values }, invalid)
     }
 
     /// All cells as numbers.
     fn numbers(&self, parse: impl Fn(&str) -> Option<f64>) -> ColumnValues {
-        ColumnValues::Numbers(self.cells().map(|cell| parse(cell).unwrap_or(f64::NAN)).collect())
+        let si = |number: f64| self.unit.map_or(number, |unit| unit.conversion.to_si(number));
+        ColumnValues::Numbers(self.cells().map(|cell| parse(cell).map_or(f64::NAN, si)).collect())
     }
 
     /// Labels that only rows have that are not kept, and whether there may be more.
@@ -162,7 +182,7 @@ impl ColumnValues {
 impl DataColumn {
     /// The cells of these rows.
     pub(super) fn at(&self, rows: &[usize]) -> Self {
-        Self { name: self.name.clone(), values: self.values.at(rows) }
+        Self { name: self.name.clone(), unit: self.unit, values: self.values.at(rows) }
     }
 }
 

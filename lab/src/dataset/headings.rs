@@ -1,9 +1,11 @@
 //! What a heading says beside the name: `v_n [m/s]`, `T_p (C)`, `V_N`, and a row of units under the header.
 
+use super::any_unit::AnyUnit;
 use super::column_names::{ONLY_MAPPED, is_error, names};
 use super::number::{NumberStyle, is_blank};
 use super::row_error::HeaderError;
 use super::unit::{Dimension, Unit};
+use nearwall::impact::ExtraInput;
 
 /// A heading: its name and, in brackets, its unit.
 struct Heading<'a> {
@@ -77,6 +79,29 @@ pub(super) fn find(
             Err(HeaderError::Ambiguous { name, one: (*one).to_owned(), two: (*two).to_owned() })
         }
     }
+}
+
+/// Name and unit of a column that is no input: what stands before the brackets where they hold a known unit, else the
+/// whole heading.
+pub(super) fn further<'a>(heading: &'a str, headers: &csv::StringRecord) -> (&'a str, Option<AnyUnit>) {
+    let Heading { name, unit, .. } = Heading::of(heading);
+    let is_free = ExtraInput::refusal(name).is_none()
+        && names().all(|(own, _)| own != name)
+        && headers.iter().filter(|other| Heading::of(other).name == name).count() == 1;
+    match unit.filter(|_| is_free).and_then(AnyUnit::of) {
+        Some(unit) => (name, Some(unit)),
+        None => (heading, None),
+    }
+}
+
+/// The column of an input that a model declares: with this heading, else with this name and a unit.
+pub(super) fn find_further(name: &str, headers: &csv::StringRecord) -> Option<FoundColumn> {
+    let whole = || headers.iter().position(|header| header == name).map(|index| (index, Unit::SI));
+    let stated = || {
+        let mut all = headers.iter().map(|header| further(header, headers)).enumerate();
+        all.find_map(|(index, (own, unit))| Some((index, unit.filter(|_| own == name)?.conversion)))
+    };
+    whole().or_else(stated).map(|(index, unit)| FoundColumn { index, unit })
 }
 
 /// The unit of a heading; `None` where the brackets hold something else.

@@ -60,7 +60,7 @@ impl<R: Read> ImpactReader<R> {
     pub fn with_extra_inputs(self, inputs: &[ExtraInput]) -> Self {
         let Self { table, inputs: known } = self;
         let style = NumberStyle { markers: false, ..table.style() };
-        let inputs = known.with_extra(inputs, style, |name| table.column(name));
+        let inputs = known.with_extra(inputs, style, |name| headings::find_further(name, table.headers()));
         Self { table, inputs }
     }
 

@@ -1,5 +1,6 @@
 //! The inputs of an impact in the cells of a row.
 
+use super::headings::FoundColumn;
 use super::number::{NumberColumn, NumberStyle, is_blank};
 use super::row_error::RowFault;
 use nearwall::impact::{ExtraInput, INPUTS, Impact};
@@ -15,8 +16,8 @@ struct ExtraColumn {
     input: ExtraInput,
     /// Its place in [`Impact::extra`].
     place: usize,
-    /// Its index in a row; `None` where the file does not have it.
-    index: Option<usize>,
+    /// Its column; `None` where the file does not have it.
+    column: Option<FoundColumn>,
     style: NumberStyle,
 }
 
@@ -37,17 +38,17 @@ impl InputColumns {
         Self { columns: std::array::from_fn(|input: usize| column(INPUTS[input].name)), extra: Vec::new() }
     }
 
-    /// The same with the inputs that the model declares; `index` finds the column of a name.
+    /// The same with the inputs that the model declares; `find` finds the column of a name.
     pub(super) fn with_extra(
         self,
         inputs: &[ExtraInput],
         style: NumberStyle,
-        index: impl Fn(&str) -> Option<usize>,
+        find: impl Fn(&str) -> Option<FoundColumn>,
     ) -> Self {
         let column = |(place, input): (usize, &ExtraInput)| ExtraColumn {
             input: input.clone(),
             place,
-            index: index(&input.name),
+            column: find(&input.name),
             style,
         };
         Self { extra: inputs.iter().enumerate().map(column).collect(), ..self }
@@ -60,12 +61,12 @@ impl InputColumns {
 
     /// The inputs that the model declares, by place, and whether they have a column.
     pub(super) fn extra(&self) -> impl Iterator<Item = (&ExtraInput, bool)> {
-        self.extra.iter().map(|column| (&column.input, column.index.is_some()))
+        self.extra.iter().map(|column| (&column.input, column.column.is_some()))
     }
 
     /// Whether the column with this index is an input that the model declares.
     pub(super) fn is_extra(&self, index: usize) -> bool {
-        self.extra.iter().any(|column| column.index == Some(index))
+        self.extra.iter().any(|column| column.column.is_some_and(|found| found.index == index))
     }
 
     /// Whether this input has a column.
@@ -109,19 +110,23 @@ impl InputColumns {
 }
 
 impl ExtraColumn {
+    fn to_si(&self, number: f64) -> f64 {
+        self.column.map_or(number, |found| found.unit.to_si(number))
+    }
+
     /// The value in a row; `None` where it is blank.
     ///
     /// # Errors
     /// The reason, for a cell that should be a number and is not.
     fn read(&self, cells: &csv::StringRecord) -> Result<Option<f64>, RowFault> {
-        let cell = self.index.and_then(|index| cells.get(index)).unwrap_or("");
+        let cell = self.column.and_then(|found| cells.get(found.index)).unwrap_or("");
         if cell.is_empty() || (self.style.markers && is_blank(cell)) {
             return Ok(None);
         }
         let name = &self.input.name;
         let value = match self.input.is_label() {
             true => self.input.value_of_text(cell),
-            false => self.style.parse(cell),
+            false => self.style.parse(cell).map(|number| self.to_si(number)),
         };
         match value {
             None => Err(self.style.not_a_number(name, cell)),

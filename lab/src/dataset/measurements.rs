@@ -706,7 +706,7 @@ mod tests {
         assert_eq!((data.detection.e_n, data.detection.rebound_speed), (Some(0.2), Some(0.05)));
         assert_eq!(
             data.columns,
-            [DataColumn { name: "plate".into(), values: words(&["7"], &[Some(0), Some(0)]) }]
+            [DataColumn { name: "plate".into(), unit: "", values: words(&["7"], &[Some(0), Some(0)]) }]
         );
     }
 

@@ -9,6 +9,7 @@
 //!
 //! Format for users: `docs/data-file.md`.
 
+mod any_unit;
 mod builder;
 mod column;
 mod column_map;
@@ -34,6 +35,7 @@ mod selection;
 mod unit;
 mod wall_choice;
 
+pub use any_unit::{UnitPowers, unit_powers};
 pub use column::{ColumnValues, DataColumn};
 pub use column_map::ColumnMap;
 pub use column_names::{PARCEL_COLUMNS, names_groups};

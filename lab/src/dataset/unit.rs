@@ -29,7 +29,7 @@ impl Unit {
     }
 }
 
-const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Unit {
+pub(super) const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Unit {
     Unit { name, offset: 0.0, factor, divisor }
 }
 

@@ -7,7 +7,6 @@ use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::explanation::explore;
 use super::explanations::{Explanations, Told, distinct};
-use super::extend;
 use super::ground::{Ground, grounds};
 use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
@@ -17,6 +16,7 @@ use super::likelihood::Scatter;
 use super::part::FittedPart;
 use super::record::GroupsFound;
 use super::shared_error::SharedErrors;
+use super::{extend, form_finding};
 
 /// What a choice needs beside the rows.
 #[derive(Clone, Copy)]
@@ -230,6 +230,7 @@ impl CauseChoice {
         hypothesis.polish(&fine.fit);
         hypothesis.settle_forms(&fine.fit);
         set_intervals(&mut hypothesis, &fine.fit);
+        form_finding::set_intervals(&mut hypothesis);
         hypothesis
     }
 

@@ -11,6 +11,8 @@ use super::curve::ColumnCurve;
 use super::evaluation::Evaluation;
 use super::likelihood::{capture_odds, visible_capture};
 use super::observable::Observable;
+use super::part::rounded;
+use super::record::Estimate;
 use super::search::{SearchAxis, best_of, descend, grid};
 use crate::dataset::ColumnValues;
 use nearwall::effect::{CurveForm, FORMS, FormInfo};
@@ -43,6 +45,8 @@ pub(super) struct ClosedForm {
     pub parameters: Vec<f64>,
     /// Whether each parameter is fitted; others are at their defaults.
     pub free: Vec<bool>,
+    /// 95 % intervals of the parameters; empty before the final fit.
+    pub intervals: Vec<[f64; 2]>,
 }
 
 /// A form with its criterion: minus the log likelihood plus half the logarithm of the number of readings a parameter.
@@ -81,6 +85,15 @@ impl ClosedForm {
         let possible =
             self.acts == CurveForm::Times || (self.acts == CurveForm::Add && !intercepts.is_empty());
         possible.then(|| Self { parameters, acts: CurveForm::Set, ..self.clone() })
+    }
+
+    /// The fitted parameters by name, with six digits; none before the final fit. The unit of the column is `unit`.
+    pub fn estimates(&self, unit: &'static str) -> impl Iterator<Item = (&'static str, Estimate)> {
+        let all = self.info.parameters.iter().zip(&self.parameters).zip(&self.intervals).zip(&self.free);
+        all.filter(|(_, free)| **free).map(move |(((parameter, value), [low, high]), _)| {
+            let [value, low, high] = [*value, low.min(*value), high.max(*value)].map(rounded);
+            (parameter.name, Estimate { value, low, high, unit: unit_of(parameter.unit, unit) })
+        })
     }
 
     /// The same form with all of its parameters fitted; a threshold of capture as it is.
@@ -123,6 +136,26 @@ pub(super) fn intervals(
     found.unwrap_or_else(nothing)
 }
 
+/// The 95 % band of a form at these places of its column, in its unit; `None` where it cannot be had.
+pub(super) fn band(
+    curve: &ColumnCurve,
+    closed: &ClosedForm,
+    with: &Evaluation<'_>,
+    quantile: f64,
+    at: &[f64],
+) -> Option<Vec<[f64; 2]>> {
+    let points = Points::new(curve, with)?;
+    if curve.form.observable == Observable::Capture {
+        return Some(points.credible_values(closed, at));
+    }
+    let errors = points.errors_of_values(closed, at)?;
+    let one = |(x, error): (&f64, f64)| {
+        let value = closed.value(*x)?;
+        Some([value - quantile * error, value + quantile * error])
+    };
+    at.iter().zip(errors).map(one).collect()
+}
+
 /// Intervals from standard errors; of a positive scale in its logarithm.
 fn symmetric(closed: &ClosedForm, errors: &[f64], quantile: f64) -> Vec<[f64; 2]> {
     let one = |(place, (value, error)): (usize, (&f64, &f64))| {
@@ -135,6 +168,18 @@ fn symmetric(closed: &ClosedForm, errors: &[f64], quantile: f64) -> Vec<[f64; 2]
         }
     };
     closed.parameters.iter().zip(errors).enumerate().map(one).collect()
+}
+
+/// The unit of a parameter of a form over a column with this unit; empty where it is not known.
+fn unit_of(parameter: &str, column: &'static str) -> &'static str {
+    match (parameter, column) {
+        ("1", _) | (_, "1") => "1",
+        ("input", unit) => unit,
+        ("1/input", "m/s") => "s/m",
+        ("1/input", "K") => "1/K",
+        ("1/input", "m") => "1/m",
+        _ => "",
+    }
 }
 
 /// A form, how it acts, and which of its parameters are fitted.
@@ -300,6 +345,7 @@ impl Points {
             acts: kind.acts,
             parameters: self.in_units(kind, parameters),
             free: kind.free.clone(),
+            intervals: Vec::new(),
         };
         Some((form, misfit + 0.5 * count as f64 * number.ln()))
     }
@@ -429,32 +475,92 @@ impl Points {
 }
 
 impl Points {
-    /// Standard errors of the fitted parameters, NaN of others, about a fit whose residuals these points are. Readings
-    /// that scatter more than their weights say widen them (sandwich covariance).
+    /// Standard errors of the fitted parameters, NaN of others, about a fit whose residuals these points are.
     fn standard_errors(&self, closed: &ClosedForm) -> Option<Vec<f64>> {
-        let free: Vec<usize> = (0..closed.free.len()).filter(|place| closed.free[*place]).collect();
-        let count = free.len();
+        let covariances = self.covariances(closed)?;
+        let mut errors = vec![f64::NAN; closed.free.len()];
+        for (row, place) in fitted(closed).into_iter().enumerate() {
+            errors[place] = largest(covariances.iter().map(|one| one[(row, row)])).sqrt();
+        }
+        Some(errors)
+    }
+
+    /// Covariances of the fitted parameters: by the weights of the readings, and by how they scatter (sandwich). The
+    /// larger one counts.
+    fn covariances(&self, closed: &ClosedForm) -> Option<[DMatrix<f64>; 2]> {
+        let count = fitted(closed).len();
         let (mut normal, mut outer) =
             (DMatrix::<f64>::zeros(count, count), DMatrix::<f64>::zeros(count, count));
         for point in &self.points {
             let scale = if closed.acts == CurveForm::Times { point.predicted } else { 1.0 };
-            let slope = |place: &usize| scale * self.slope(closed, *place, point.x * self.unit);
-            let slopes = DVector::from_iterator(count, free.iter().map(slope));
+            let slopes = scale * slopes(closed, point.x * self.unit);
             let product = &slopes * slopes.transpose();
             outer += &product * (point.weight * point.residual).powi(2);
             normal += product * point.weight;
         }
         let inverse = normal.cholesky()?.inverse();
         let sandwich = &inverse * outer * &inverse;
-        let mut errors = vec![f64::NAN; closed.free.len()];
-        for (row, place) in free.into_iter().enumerate() {
-            errors[place] = inverse[(row, row)].max(sandwich[(row, row)]).sqrt();
-        }
-        Some(errors)
+        Some([inverse, sandwich])
     }
 
-    /// Slope of the value by a parameter.
-    fn slope(&self, closed: &ClosedForm, place: usize, x: f64) -> f64 {
+    /// Standard errors of the value at these places of the column.
+    fn errors_of_values(&self, closed: &ClosedForm, at: &[f64]) -> Option<Vec<f64>> {
+        let covariances = self.covariances(closed)?;
+        let one = |x: &f64| {
+            let slopes = slopes(closed, *x);
+            largest(covariances.iter().map(|one| slopes.dot(&(one * &slopes)))).sqrt()
+        };
+        Some(at.iter().map(one).collect())
+    }
+
+    /// Thresholds on a grid of place and steepness, with their weights.
+    fn weighted_thresholds(&self, closed: &ClosedForm) -> Vec<(Vec<f64>, f64)> {
+        let kind = Kind { info: closed.info, acts: closed.acts, free: closed.free.clone() };
+        let (axes, places) = (self.axes(&kind), nonlinear(kind.info));
+        let parameters = |at: &Vec<f64>| {
+            let mut parameters = closed.parameters.clone();
+            for ((place, axis), at) in places.iter().zip(&axes).zip(at) {
+                parameters[*place] = axis.value(*at).copysign(closed.parameters[*place]);
+            }
+            parameters
+        };
+        let all: Vec<Vec<f64>> = grid(axes.len(), FINE_PLACES).iter().map(parameters).collect();
+        let costs: Vec<f64> = all.iter().map(|parameters| self.surprise(&kind, parameters)).collect();
+        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+        all.into_iter().zip(costs).map(|(parameters, cost)| (parameters, (least - cost).exp())).collect()
+    }
+
+    /// Intervals of the place and the steepness of a threshold of captures.
+    fn credible(&self, closed: &ClosedForm) -> Vec<[f64; 2]> {
+        let weighted = self.weighted_thresholds(closed);
+        let mut ends = vec![[f64::NAN; 2]; closed.parameters.len()];
+        for place in nonlinear(closed.info) {
+            let unit = if closed.info.parameters[place].unit == "input" { self.unit } else { 1.0 };
+            let values = weighted.iter().map(|(parameters, weight)| (unit * parameters[place], *weight));
+            ends[place] = middle(values);
+        }
+        ends
+    }
+
+    /// The middle 95 % of the probability of capture at these places of the column.
+    fn credible_values(&self, closed: &ClosedForm, at: &[f64]) -> Vec<[f64; 2]> {
+        let weighted = self.weighted_thresholds(closed);
+        let one = |x: &f64| {
+            let value = |parameters: &[f64]| closed.info.value(parameters, x / self.unit).clamp(0.0, 1.0);
+            middle(weighted.iter().map(|(parameters, weight)| (value(parameters), *weight)))
+        };
+        at.iter().map(one).collect()
+    }
+}
+
+/// The places of the fitted parameters.
+fn fitted(closed: &ClosedForm) -> Vec<usize> {
+    (0..closed.free.len()).filter(|place| closed.free[*place]).collect()
+}
+
+/// Slopes of the value at `x`, in the unit of the column, by the fitted parameters.
+fn slopes(closed: &ClosedForm, x: f64) -> DVector<f64> {
+    let slope = |place: usize| {
         let step = 1e-6 * closed.parameters[place].abs().max(1e-6);
         let at = |sign: f64| {
             let mut moved = closed.parameters.clone();
@@ -462,31 +568,13 @@ impl Points {
             closed.info.value(&moved, x)
         };
         (at(1.0) - at(-1.0)) / (2.0 * step)
-    }
+    };
+    let all: Vec<f64> = fitted(closed).into_iter().map(slope).collect();
+    DVector::from_vec(all)
+}
 
-    /// Intervals of the place and the steepness of a threshold of captures, from their probability on a grid.
-    fn credible(&self, closed: &ClosedForm) -> Vec<[f64; 2]> {
-        let kind = Kind { info: closed.info, acts: closed.acts, free: closed.free.clone() };
-        let (axes, places) = (self.axes(&kind), nonlinear(kind.info));
-        let grid = grid(axes.len(), FINE_PLACES);
-        let parameters = |at: &[f64]| {
-            let mut parameters = closed.parameters.clone();
-            for ((place, axis), at) in places.iter().zip(&axes).zip(at) {
-                parameters[*place] = axis.value(*at).copysign(closed.parameters[*place]);
-            }
-            parameters
-        };
-        let costs: Vec<f64> = grid.iter().map(|at| self.surprise(&kind, &parameters(at))).collect();
-        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
-        let weights: Vec<f64> = costs.iter().map(|cost| (least - cost).exp()).collect();
-        let mut ends = vec![[f64::NAN; 2]; closed.parameters.len()];
-        for place in &places {
-            let values = grid.iter().map(|at| parameters(at)[*place]);
-            let unit = if kind.info.parameters[*place].unit == "input" { self.unit } else { 1.0 };
-            ends[*place] = middle(values.zip(weights.iter().copied())).map(|end| end * unit);
-        }
-        ends
-    }
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(0.0, f64::max)
 }
 
 /// The middle 95 % of weighted values.

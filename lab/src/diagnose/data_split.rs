@@ -37,15 +37,20 @@ pub(super) enum ColumnKind {
     Input,
     /// Another column of the file.
     Further,
-    /// A dimensionless group, and the columns of the file that state a property for it, with their medians.
-    Group { needs: Vec<(String, f64)> },
+    /// A dimensionless group.
+    Group {
+        /// The columns with their exponents of a product of columns; empty for a built-in group.
+        factors: Vec<(String, f64)>,
+        /// The columns of the file that it needs, with their medians.
+        needs: Vec<(String, f64)>,
+    },
 }
 
 /// A column that may explain the residuals.
 #[derive(Debug, Clone)]
 pub(super) struct Covariate {
     pub name: String,
-    /// SI unit of an input or group; empty for a further column.
+    /// SI unit; empty for a further column without one.
     pub unit: &'static str,
     /// Blank cells of numbers have the median, which has no effect of its own.
     pub values: ColumnValues,
@@ -360,8 +365,9 @@ fn covariates(base: &Model, data: &Measurements, missing: &MissingInputs, groups
         Some(Covariate::new(&input.name, "", values, ColumnKind::Further))
     });
     let further = data.columns.iter().filter(|column| !groups.contains(&column.name.as_str()));
-    let further = further
-        .map(|DataColumn { name, values }| Covariate::new(name, "", values.clone(), ColumnKind::Further));
+    let further = further.map(|DataColumn { name, unit, values }| {
+        Covariate::new(name, unit, values.clone(), ColumnKind::Further)
+    });
     let mut all: Vec<Covariate> = inputs.chain(declared).chain(further).filter(Covariate::varies).collect();
     let groups = group_columns(base, data, &all, &|row| missing.lacks(row));
     all.extend(groups.into_iter().filter(Covariate::varies));

@@ -109,6 +109,8 @@ fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &
     for (parameter, number) in closed.info.parameters.iter().zip(&closed.parameters) {
         table.insert(parameter.name, value(rounded(*number)));
     }
+    let unit = curve.form.sides.first().map_or("", |(column, _)| data.covariates[*column].unit);
+    insert_estimates(&mut table, closed.estimates(unit));
     table.insert("valid", value(valid_over(data, curve)));
     table.insert("source", value(SOURCE));
     table
@@ -177,7 +179,8 @@ fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCu
         let covariate = &data.covariates[*column];
         match (&covariate.kind, &covariate.values) {
             (ColumnKind::Input, _) => {}
-            (ColumnKind::Group { needs }, _) => {
+            (ColumnKind::Group { factors, needs }, _) => {
+                declare_product(document, &covariate.name, factors);
                 needs.iter().for_each(|(name, median)| declare(document, name, ("default", value(*median))));
             }
             (ColumnKind::Further, ColumnValues::Numbers(_)) => {
@@ -188,6 +191,20 @@ fn declare_inputs(document: &mut DocumentMut, data: &DataSplit, curve: &ColumnCu
                 declare(document, &covariate.name, ("labels", labels));
             }
         }
+    }
+}
+
+/// Declares a product of columns as a group of the model; nothing for a built-in group.
+fn declare_product(document: &mut DocumentMut, name: &str, factors: &[(String, f64)]) {
+    if factors.is_empty() {
+        return;
+    }
+    let groups = document.entry("groups").or_insert_with(|| Item::Table(Table::new()));
+    let powers = factors.iter().map(|(name, exponent)| (name.as_str(), Value::from(*exponent)));
+    if let Some(groups) = groups.as_table_like_mut()
+        && !groups.contains_key(name)
+    {
+        groups.insert(name, value(powers.collect::<InlineTable>()));
     }
 }
 
@@ -228,14 +245,19 @@ pub(super) fn effect(fitted: &FittedPart, info: &EffectInfo, valid: InlineTable)
     for (parameter, number) in info.parameters.iter().zip(fitted.values()) {
         table.insert(parameter.name, value(rounded(number)));
     }
-    for (name, Estimate { value: number, low, high, unit }) in fitted.estimates() {
+    insert_estimates(&mut table, fitted.estimates());
+    table.insert("valid", value(valid));
+    table.insert("source", value(SOURCE));
+    table
+}
+
+/// Writes parameters with their intervals.
+fn insert_estimates(table: &mut Table, estimates: impl Iterator<Item = (&'static str, Estimate)>) {
+    for (name, Estimate { value: number, low, high, unit }) in estimates {
         let mut fit = InlineTable::from_iter([("value", number), ("low", low), ("high", high)]);
         fit.insert("unit", unit.into());
         table.insert(name, value(fit));
     }
-    table.insert("valid", value(valid));
-    table.insert("source", value(SOURCE));
-    table
 }
 
 /// The range of every input that varies in the fitted rows.

@@ -2,17 +2,24 @@
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::closed_form::{ClosedForm, Rated, forms, intervals};
+use super::closed_form::{ClosedForm, Rated, band, forms, intervals};
 use super::curve::ColumnCurve;
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::rounded;
-use super::record::{CauseForm, Estimate, OtherForm};
+use super::record::{CauseForm, FormPoint, OtherForm};
 use nearwall::effect::CurveForm;
 
 /// Forms less probable than this are not listed [1].
 const LEAST_LISTED: f64 = 0.02;
+
+/// A form over a wide range is shown beyond both of its ends by this factor [1].
+const BEYOND_SEEN: f64 = 3.0;
+/// A range whose ends differ by more than this factor is wide [1].
+const WIDE: f64 = 30.0;
+/// Points of a form's line.
+const LINE_POINTS: usize = 61;
 
 /// From this steepness on a threshold of capture is a step for a reader [1].
 const STEEP: f64 = 30.0;
@@ -79,41 +86,87 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
     let observable = curve.form.observable;
-    let mut bare = hypothesis.clone();
-    bare.remove_curve(curve);
-    let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
-    // The data do not know that the defaults are right.
-    let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
-    let ends = intervals(curve, &freed, &with_curve(hypothesis), quantile(hypothesis, closed));
-    let estimate = |place: usize| {
-        let (value, [low, high]) = (closed.parameters[place], ends[place]);
-        let parameter = &closed.info.parameters[place];
-        let [value, low, high] = [value, low.min(value), high.max(value)].map(rounded);
-        (parameter.name, Estimate { value, low, high, unit: unit(parameter.unit, column.unit) })
-    };
+    let fit = FormFit::new(hypothesis, curve, closed);
     let record = CauseForm {
         observable: observable.name(),
         form: closed.info.name,
         acts: closed.acts.name(),
         equation: equation(closed, observable, &column.name),
-        parameters: (0..closed.parameters.len()).filter(|place| closed.free[*place]).map(estimate).collect(),
+        parameters: closed.estimates(column.unit).collect(),
+        seen: hypothesis.data.range(&column.name),
+        line: hypothesis.data.range(&column.name).map(|seen| fit.line(seen)).unwrap_or_default(),
         probability: 1.0,
         others: Vec::new(),
         resembles: resemblance(closed, observable, &column.name),
     };
-    Some(with_probabilities(record, curve, &rows))
+    Some(with_probabilities(record, curve, &fit.rows))
 }
 
-/// The unit of a parameter of a form over a column with this unit; empty where it is not known.
-fn unit(of_parameter: &str, of_column: &'static str) -> &'static str {
-    match (of_parameter, of_column) {
-        ("1", _) | (_, "1") => "1",
-        ("input", unit) => unit,
-        ("1/input", "m/s") => "s/m",
-        ("1/input", "K") => "1/K",
-        ("1/input", "m") => "1/m",
-        _ => "",
+/// Sets the intervals of the parameters of every closed form.
+pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>) {
+    let one = |curve: &ColumnCurve| {
+        let closed = curve.closed.as_ref()?;
+        let fit = FormFit::new(hypothesis, curve, closed);
+        Some(intervals(curve, &fit.freed, &fit.with, fit.quantile))
+    };
+    let found: Vec<Option<Vec<[f64; 2]>>> = hypothesis.curves.iter().map(one).collect();
+    for (curve, found) in hypothesis.curves.iter_mut().zip(found) {
+        if let (Some(closed), Some(found)) = (&mut curve.closed, found) {
+            closed.intervals = found;
+        }
     }
+}
+
+/// A form in the hypothesis that it belongs to.
+struct FormFit<'a, 'b> {
+    curve: &'a ColumnCurve,
+    closed: &'a ClosedForm,
+    /// The form with its defaults fitted too: the data do not know that they are right.
+    freed: ClosedForm,
+    /// The fitted rows without and with the form.
+    rows: Evaluation<'b>,
+    with: Evaluation<'b>,
+    /// Student's quantile of a 95 % interval.
+    quantile: f64,
+}
+
+impl<'a, 'b> FormFit<'a, 'b> {
+    fn new(hypothesis: &Hypothesis<'b>, curve: &'a ColumnCurve, closed: &'a ClosedForm) -> Self {
+        let mut bare = hypothesis.clone();
+        bare.remove_curve(curve);
+        let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
+        let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
+        let (with, quantile) = (with_curve(hypothesis), quantile(hypothesis, closed));
+        Self { curve, closed, freed, rows, with, quantile }
+    }
+
+    /// The form with its 95 % band over the range where it was seen and [`BEYOND_SEEN`] further on either side.
+    fn line(&self, seen: [f64; 2]) -> Vec<FormPoint> {
+        let at = places(seen);
+        let Some(band) = band(self.curve, &self.freed, &self.with, self.quantile, &at) else {
+            return Vec::new();
+        };
+        let one = |(at, [low, high]): (f64, [f64; 2])| {
+            let value = self.closed.value(at)?;
+            let point = FormPoint { at, value, low: low.min(value), high: high.max(value) };
+            (point.low.is_finite() && point.high.is_finite()).then_some(point)
+        };
+        at.into_iter().zip(band).filter_map(one).collect()
+    }
+}
+
+/// Places over a range and beyond: by a factor where the range is positive and wide, else by half of its width.
+fn places([low, high]: [f64; 2]) -> Vec<f64> {
+    let is_wide = low > 0.0 && high > WIDE * low;
+    let [from, to] = if is_wide {
+        [(low / BEYOND_SEEN).ln(), (high * BEYOND_SEEN).ln()]
+    } else {
+        let half = 0.5 * (high - low);
+        [if low >= 0.0 { (low - half).max(0.0) } else { low - half }, high + half]
+    };
+    let share = |place: usize| place as f64 / (LINE_POINTS - 1) as f64;
+    let at = (0..LINE_POINTS).map(|place| from + share(place) * (to - from));
+    at.map(|at| if is_wide { at.exp() } else { at }).collect()
 }
 
 /// The fitted rows under the hypothesis with its curves.

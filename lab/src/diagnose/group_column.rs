@@ -1,5 +1,5 @@
 //! Dimensionless groups as columns: computed from the inputs, the base model, and columns of the file that state a
-//! property of each row (`mu_p`, `sigma_p`, …).
+//! property of each row (`mu_p`, `sigma_p`, …); and the products of columns that have no unit.
 //!
 //! A group is a column only where every row has a value of it, and where no single column orders the rows as it does:
 //! with one speed and many sizes, Weber's number says nothing that the size does not.
@@ -8,6 +8,7 @@ use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
+use super::column_product::{kind, products};
 use super::data_split::{ColumnKind, Covariate, median};
 use crate::dataset::{ColumnValues, Measurement, Measurements};
 use nearwall::effect::CurveInput;
@@ -40,8 +41,15 @@ pub(super) fn group_columns(
         };
         let values = values(&model, data, &stated, CurveInput::Group(place), lacks);
         if let Some(values) = values.filter(is_new) {
-            let kind = ColumnKind::Group { needs: needs(group, &stated) };
+            let kind = ColumnKind::Group { factors: Vec::new(), needs: needs(group, &stated) };
             found.push(Covariate::new(group.name, "1", ColumnValues::Numbers(values), kind));
+        }
+    }
+    for product in products(known) {
+        let (name, values) = (product.name(known), product.values(known));
+        let mut others = known.iter().chain(&found);
+        if others.all(|other| other.name != name && !orders(other, &values)) {
+            found.push(Covariate::new(&name, "1", ColumnValues::Numbers(values), kind(&product, known)));
         }
     }
     found

@@ -11,6 +11,7 @@ mod candidate;
 mod candidate_list;
 mod choice;
 mod closed_form;
+mod column_product;
 pub mod comparison;
 mod constant_capture;
 mod constants;
@@ -66,8 +67,9 @@ pub use impact_diagnosis::{FileDiagnosisError, ImpactDiagnosis};
 pub use reach::{Reach, ReachError};
 pub use record::{
     Alternative, Calibration, CauseCurve, CauseForm, CauseSurface, DataView, Diagnosis, Errors, Estimate,
-    ExplanationFound, Finding, Fit, FitTest, Gain, GroupsFound, LargeMisfit, Misfit, NextMeasurement,
-    NotExamined, Options, OtherForm, Rival, Rows, Sample, SampleRow, ScatterFound, Unexplained,
+    ExplanationFound, Finding, Fit, FitTest, FormPoint, Gain, GroupsFound, LargeMisfit, Misfit,
+    NextMeasurement, NotExamined, Options, OtherForm, Rival, Rows, Sample, SampleRow, ScatterFound,
+    Unexplained,
 };
 pub use unselected::read_measurements;
 

@@ -255,12 +255,29 @@ pub struct CauseForm {
     pub equation: String,
     /// Its fitted parameters.
     pub parameters: BTreeMap<&'static str, Estimate>,
+    /// The range of the column over which it was seen, in the column's unit.
+    pub seen: Option<[f64; 2]>,
+    /// Its value with a 95 % band, within that range and beyond it.
+    pub line: Vec<FormPoint>,
     /// Probability among the forms [1], each with equal odds before the data.
     pub probability: f64,
     /// The other forms that the data leave open, the most probable first.
     pub others: Vec<OtherForm>,
     /// The law that it resembles.
     pub resembles: Option<&'static str>,
+}
+
+/// The value of a form at one place of its column.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct FormPoint {
+    /// The place, in the column's unit.
+    pub at: f64,
+    /// What it sets, adds or multiplies with [1].
+    pub value: f64,
+    /// Ends of the 95 % band [1].
+    pub low: f64,
+    /// See `low`.
+    pub high: f64,
 }
 
 /// Another form.

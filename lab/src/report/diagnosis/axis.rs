@@ -93,6 +93,15 @@ impl<'a> ColumnAxis<'a> {
         }
     }
 
+    /// An empty chart over this column, between these numbers.
+    pub fn chart_between(&self, title: &str, y_label: &str, [low, high]: [f64; 2]) -> Chart {
+        let chart = self.chart(title, y_label);
+        match self.scale {
+            Scale::Numbers { log: false, .. } => chart.x_range(low, high),
+            _ => chart,
+        }
+    }
+
     /// An empty chart over this column.
     pub fn chart(&self, title: &str, y_label: &str) -> Chart {
         let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };

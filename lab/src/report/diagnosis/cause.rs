@@ -5,7 +5,7 @@ use super::super::format::{by_chance, listed, number, whole_percent};
 use super::super::page::{Page, Table};
 use super::axis::ColumnAxis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
-use super::{cause_title, curve, probability, spread, usage};
+use super::{cause_title, curve, form, probability, spread, usage};
 use crate::diagnose::{Alternative, CauseSurface, Diagnosis, Estimate, Finding};
 use nearwall::effect::{EFFECTS, FormInfo};
 
@@ -167,7 +167,8 @@ fn figures(diagnosis: &Diagnosis, finding: &Finding) -> Vec<Figure> {
         return spread::figures(diagnosis, finding, &id);
     }
     let curve = finding.curve.as_ref().and_then(|shape| curve::figure(diagnosis, finding, shape, &id));
-    curve.into_iter().chain(before_and_after(diagnosis, finding, &id)).collect()
+    let forms = finding.forms.iter().filter_map(|one| form::figure(diagnosis, finding, one));
+    curve.into_iter().chain(forms).chain(before_and_after(diagnosis, finding, &id)).collect()
 }
 
 /// Residuals of both models over the cause's own column, else over the speed, else over the first.

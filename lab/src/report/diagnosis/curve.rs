@@ -62,7 +62,7 @@ pub(super) fn figure(
 }
 
 /// A line of points at `x`, level beyond its ends.
-fn along(line: &[[f64; 2]], x: f64) -> Option<f64> {
+pub(super) fn along(line: &[[f64; 2]], x: f64) -> Option<f64> {
     let right = line.partition_point(|point| point[0] <= x);
     match (right.checked_sub(1).and_then(|left| line.get(left)), line.get(right)) {
         (Some(a), Some(b)) => Some(a[1] + (b[1] - a[1]) * (x - a[0]) / (b[0] - a[0])),

@@ -302,6 +302,11 @@ impl Window {
         (if points.is_empty() { chart } else { chart.cloud(name, &inside) }, note)
     }
 
+    /// Numbers with those outside at its ends.
+    pub fn clamped(&self, numbers: &[f64]) -> Vec<f64> {
+        numbers.iter().map(|number| number.clamp(self.low, self.high)).collect()
+    }
+
     fn contains(&self, point: &[f64; 2]) -> bool {
         (self.low..=self.high).contains(&point[1])
     }
