@@ -327,6 +327,9 @@ impl<'a> Builder<'a> {
         let own =
             self.named.columns.iter().filter(|c| headers.get(c.index).is_some_and(|h| !self.map.maps(h)));
         let mut notes = headings::notes(own.map(|column| (column.name, column.index, column.unit)), headers);
+        let is_cause = |index: usize| self.causes.iter().any(|(own, _)| *own == index);
+        notes
+            .extend(headings::further_notes(headers, |index| is_cause(index) || self.inputs.is_extra(index)));
         let observable =
             OBSERVATIONS.into_iter().chain(DETAILS).filter(|name| self.named.index(name).is_none());
         let inputs = INPUTS.iter().map(|input| input.name);

@@ -170,6 +170,16 @@ pub(super) fn unit_row(
     UnitRow::Units(found)
 }
 
+/// What is said of columns that are no inputs and state a unit.
+pub(super) fn further_notes(headers: &csv::StringRecord, is_used: impl Fn(usize) -> bool) -> Vec<String> {
+    let all = headers.iter().enumerate().filter(|(index, _)| is_used(*index));
+    let note = |(_, header): (usize, &str)| {
+        let (name, unit) = further(header, headers);
+        unit.map(|unit| format!("column `{header}` is read as {name} in {}", unit.si))
+    };
+    all.filter_map(note).collect()
+}
+
 /// What is said of the headings that are not nearwall's own names: how each of these columns is read.
 pub(super) fn notes(
     found: impl Iterator<Item = (&'static str, usize, Unit)>,

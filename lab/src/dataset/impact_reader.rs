@@ -67,7 +67,8 @@ impl<R: Read> ImpactReader<R> {
     /// How the file is read where that is not nearwall's own format.
     pub fn notes(&self) -> Vec<String> {
         let columns = self.inputs.columns().map(|column| (column.name, column.index, column.unit));
-        [self.table.notes(), headings::notes(columns, self.headers())].concat()
+        let further = headings::further_notes(self.headers(), |index| self.inputs.is_extra(index));
+        [self.table.notes(), headings::notes(columns, self.headers()), further].concat()
     }
 
     /// The column names.

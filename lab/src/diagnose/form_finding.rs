@@ -221,11 +221,13 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         let text = format!("{value:.3e}").parse::<f64>().unwrap_or(value).to_string();
         if text.starts_with('-') { format!("({text})") } else { text }
     };
+    // A quotient or a product has a letter of its own in a formula.
+    let is_plain = column.chars().all(|letter| letter.is_alphanumeric() || letter == '_');
     let word = |word: &str| {
         let place = closed.info.parameters.iter().position(|parameter| parameter.name == word);
         match place {
             Some(place) => number(closed.parameters[place]),
-            None if word == "x" => column.to_owned(),
+            None if word == "x" && is_plain => column.to_owned(),
             None => word.to_owned(),
         }
     };
@@ -238,12 +240,13 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
     }
     let formula = closed.info.equation.split(", ").next().unwrap_or_default();
     let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
-    match closed.acts {
+    let formula = match closed.acts {
         CurveForm::Set => format!("{name} = {value}"),
         CurveForm::Add => format!("{name} = base + ({value})"),
         CurveForm::Factor => format!("{name} = base (1 + {value})"),
         CurveForm::Times => format!("{name} = base ({value})"),
-    }
+    };
+    if is_plain { formula } else { format!("{formula} with x = {column}") }
 }
 
 /// How steep a threshold is [1]; 0 for another form.
