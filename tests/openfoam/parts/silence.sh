@@ -72,6 +72,7 @@ says() { # name log text...
 
 # What a restart takes over, what changed since, and what is missing
 case_taken-over() {
+    local f
     powder_box "$work/taken-over" || return
     solve taken-over first "$solver" || return
     if grep -q "changed since\|in the beginning" log.first; then bad taken-over/new "a case that begins has changed"; else ok taken-over/new; fi
