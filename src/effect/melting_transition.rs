@@ -44,6 +44,7 @@ mod tests {
     fn celsius_is_refused_with_the_value_in_kelvin() {
         let model = |temperature: &str| {
             let text = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+                [normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.5\n\
                 [[effects]]\nkind = \"melting-transition\"\nwidth = 7\ntemperature = ";
             Model::from_toml("model", &format!("{text}{temperature}\n"))
         };
