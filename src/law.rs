@@ -92,10 +92,12 @@ impl Parameter {
         let Self { name, unit, bounds: (low, high), default, absent, about, .. } = *self;
         let missing = |s: &Section<'_>| s.missing(name, &format!("a number [{unit}], {about},"));
         if !section.is_section(name) {
-            let given = section.number_within(name, low, high)?.or(default).or(absent);
-            return given.ok_or_else(|| missing(section));
+            self.refuse_celsius(section, name)?;
+            let given = section.number_within(name, low, high)?;
+            return given.or(default).or(absent).ok_or_else(|| missing(section));
         }
         let fitted = section.required_section(name)?;
+        self.refuse_celsius(&fitted, "value")?;
         let value = fitted.number_within("value", low, high)?.ok_or_else(|| missing(&fitted))?;
         fitted.number("low")?;
         fitted.number("high")?;
@@ -104,6 +106,24 @@ impl Parameter {
         Ok(value)
     }
 }
+
+impl Parameter {
+    /// Refuses a temperature [K] below the bounds, which is probably in degrees Celsius.
+    fn refuse_celsius(&self, section: &Section<'_>, key: &str) -> Result<(), InputError> {
+        match section.number(key)? {
+            Some(value) if self.kind == QuantityKind::Temperature && value < self.bounds.0 => {
+                let kelvin = value + CELSIUS_ZERO;
+                let problem = "nothing softens or melts at";
+                let remedy = "if that is in degrees Celsius, write";
+                Err(section.fault(key, format!("{problem} {value} K; {remedy} {kelvin:.2}")))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// 0 °C [K].
+const CELSIUS_ZERO: f64 = 273.15;
 
 /// Most parameters of a listed law.
 pub const MOST_PARAMETERS: usize = 4;

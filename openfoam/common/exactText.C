@@ -10,12 +10,13 @@
 
 std::string Foam::nearWall::exactText(const scalar x)
 {
-    // Fast path for counts. isless() raises no floating-point trap for NaN.
+    // Fast path for counts, and for -0, which a restart reads as 0. isless()
+    // raises no floating-point trap for NaN.
     if
     (
         std::isless(std::fabs(x), 1e9)
      && x == std::floor(x)
-     && !std::signbit(x)
+     && (x == 0 || !std::signbit(x))
     )
     {
         return std::to_string(static_cast<long>(x));

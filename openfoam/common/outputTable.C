@@ -34,6 +34,19 @@ void Foam::nearWall::requireWritable
 }
 
 
+void Foam::nearWall::requireWritten(const bool isWritten, const fileName& file)
+{
+    if (isWritten) return;
+
+    const int fault = errno;    // before another call changes it
+    FatalErrorInFunction
+        << "nearWallInteraction cannot write " << file << ": "
+        << (fault ? std::strerror(fault) : "the file cannot be opened") << nl
+        << "    Make room, then go on from the last written time; no row is lost"
+        << " or counted twice." << exit(FatalError);
+}
+
+
 void Foam::nearWall::outputTable::write(const tableRow& row)
 {
     if (!Pstream::master()) return;
@@ -54,5 +67,7 @@ void Foam::nearWall::outputTable::write(const tableRow& row)
         *file_ << separator << text.c_str();
         separator = " ";
     }
+    errno = 0;
     *file_ << endl;
+    requireWritten(file_->stdStream().good(), path_);
 }

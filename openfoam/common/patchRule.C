@@ -119,6 +119,7 @@ struct patchEntries
             FatalIOErrorInFunction(coeffs)
                 << "Key 'patches' must be a dictionary or a list of entries,"
                 << " as in" << nl << "    patches { floor { type interact; } }"
+                << nl << "    Behind the ')' of a list stands a ';'."
                 << exit(FatalIOError);
         }
         tokenList inside(SubList<token>(tokens, tokens.size() - from - 2, from + 1));
@@ -361,22 +362,30 @@ Foam::List<Foam::nearWall::patchRule> Foam::nearWall::patchRule::read
 }
 
 
+std::string Foam::nearWall::patchRule::text() const
+{
+    OStringStream os;
+    os  << typeNames[type];
+    if (type == rebound) os << ", e " << e << ", mu " << mu;
+    if (type == interact)
+    {
+        os  << ", wall '" << wallName.c_str() << "', temperature ";
+        if (temperatureFromField) os << "from field " << temperatureField;
+        else os << temperature << " K";
+        for (const extraInput& input : extraInputs)
+        {
+            os  << ", " << input.name.c_str() << " "
+                << (input.fromField ? "from field" : input.text(input.value).c_str());
+        }
+    }
+    return os.str();
+}
+
+
 void Foam::nearWall::patchRule::report(const word& patchName) const
 {
     if (type == pass && !named) return;
 
-    Info<< "        " << patchName << ": " << typeNames[type];
-    if (type == rebound) Info<< ", e " << e << ", mu " << mu;
-    if (type == interact)
-    {
-        Info<< ", wall '" << wallName.c_str() << "', temperature ";
-        if (temperatureFromField) Info<< "from field " << temperatureField;
-        else Info<< temperature << " K";
-        for (const extraInput& input : extraInputs)
-        {
-            Info<< ", " << input.name.c_str() << " "
-                << (input.fromField ? "from field" : input.text(input.value).c_str());
-        }
-    }
-    Info<< (named ? "" : " (not named, default)") << nl;
+    Info<< "        " << patchName << ": " << text().c_str()
+        << (named ? "" : " (not named, default)") << nl;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "wallRule.H"
+#include "dictionaryChecks.H"
 #include "versionCompat.H"
 
 void Foam::nearWall::wallRule::readWall
@@ -59,6 +60,7 @@ void Foam::nearWall::wallRule::readTemperature
     if (t.isNumber() && t.number() > 0)
     {
         temperature = t.number();
+        warnOfCelsius(temperature, "wallTemperature of patch '" + pp.name() + "'");
         temperatureFromField = needsField = false;
         return;
     }

@@ -24,3 +24,13 @@ void Foam::nearWall::refuseUnknownKeys
         }
     }
 }
+
+
+void Foam::nearWall::warnOfCelsius(const scalar T, const string& where)
+{
+    // Assumed: few walls, coolants and particles are colder
+    if (T >= 150) return;
+
+    Info<< "    nearWallInteraction, warning: " << where.c_str() << " is " << T
+        << " K. If that is in degrees Celsius, write " << T + 273.15 << nl;
+}

@@ -5,6 +5,9 @@
 #include "ITstream.H"
 #include "versionCompat.H"
 
+#include <fstream>
+#include <sstream>
+
 namespace
 {
 
@@ -43,6 +46,31 @@ Foam::string Foam::nearWall::wallModelOrigin
 {
     if (inlineText(coeffs)) return "inline model of " + coeffs.name();
     return modelPath(coeffs, time);
+}
+
+
+std::vector<std::string> Foam::nearWall::wallModelLines
+(
+    const dictionary& coeffs,
+    const Time& time
+)
+{
+    const string* const text = inlineText(coeffs);
+    std::stringstream all(text ? std::string(*text) : std::string());
+    if (!text) all << std::ifstream(modelPath(coeffs, time).c_str()).rdbuf();
+
+    std::vector<std::string> lines;
+    std::string line;
+    while (std::getline(all, line))
+    {
+        const char* const blanks = " \t\r";
+        const std::size_t from = line.find_first_not_of(blanks);
+        if (from == std::string::npos || line[from] == '#') continue;
+
+        const std::size_t to = line.find_last_not_of(blanks);
+        lines.push_back(line.substr(from, to - from + 1));
+    }
+    return lines;
 }
 
 

@@ -53,6 +53,8 @@ Foam::nearWall::depositFields::depositFields
     const bool carriesAway
 )
 :
+    mesh_(mesh),
+    cloudName_(cloudName),
     voidage_(voidage)
 {
     const bool exists[] = {true, cooled, carriesAway};
@@ -70,16 +72,71 @@ Foam::nearWall::depositFields::depositFields
 }
 
 
+bool Foam::nearWall::depositFields::isThere(const label f) const
+{
+    return onAnyRank(fields_[f] && fields_[f]->headerOk());
+}
+
+
 bool Foam::nearWall::depositFields::given() const
 {
     bool found = false;
     for (label f = 0; f < nFields; ++f)
     {
-        if (!table()[f].member || !fields_[f]) continue;
-
-        found = fields_[f]->headerOk() || found;
+        if (table()[f].member && fields_[f]) found = isThere(f) || found;
     }
-    return onAnyRank(found);
+    return found;
+}
+
+
+std::string Foam::nearWall::depositFields::names() const
+{
+    std::string all;
+    for (label f = 0; f < nFields; ++f)
+    {
+        if (fields_[f]) all += std::string(table()[f].name) + " ";
+    }
+    return all;
+}
+
+
+void Foam::nearWall::depositFields::requireComplete
+(
+    const std::string& saved
+) const
+{
+    const field ofPowder[] = {powder, layer, cover};
+    bool anyPowder = false;
+    for (const field f : ofPowder) anyPowder = isThere(f) || anyPowder;
+
+    for (label f = 0; f < nFields; ++f)
+    {
+        const std::string name(table()[f].name);
+        const bool wasSaved =
+            (" " + saved).find(" " + name + " ") != std::string::npos;
+        const bool needed =
+            wasSaved || (anyPowder && (f == powder || f == layer || f == cover));
+        if (!needed) continue;
+
+        const word file(cloudName_ + ":" + name);
+        if (!fields_[f])
+        {
+            Info<< "    nearWallInteraction, warning: field " << file << " of the"
+                << " earlier run is not used: no wall needs it now" << nl;
+        }
+        else if (!isThere(f))
+        {
+            FatalErrorInFunction
+                << "Field " << file << " of time " << timeName(mesh_.time())
+                << " is missing, so that its deposit would be lost." << nl
+                << "    "
+                << (wasSaved
+                  ? "Restore the file, or go on from another time."
+                  : "Powder on the walls needs powderMass [kg/m2], layerThickness"
+                    " [m] and coverArea [1].")
+                << exit(FatalError);
+        }
+    }
 }
 
 

@@ -21,17 +21,6 @@ struct largerOf
     }
 };
 
-
-//- Warn when the deposit grew too much in a step
-void reportRise(Ostream& os, const scalar rise)
-{
-    if (rise <= largestSoundRise) return;
-
-    os  << "    nearWallInteraction, warning: the deposit grew so much in this"
-        << " step that the surface of a face changes by some " << rise
-        << " K; take shorter steps or less acceleration" << nl;
-}
-
 } // End anonymous namespace
 
 
@@ -266,6 +255,17 @@ Foam::nearWall::tableRow Foam::nearWall::wallBalance::row
     for (label t = nTerms; t < names_.size(); ++t) cells.add(names_[t], totals[t]);
     if (cooled) faces.addTo(cells, i, fields::heatFlux);
     return cells;
+}
+
+
+void Foam::nearWall::wallBalance::reportRise(Ostream& os, const scalar rise)
+{
+    if (rise <= 2*saidRise_ || rise <= largestSoundRise) return;
+
+    saidRise_ = rise;
+    os  << "    nearWallInteraction, warning: the deposit grew so much in this"
+        << " step that the surface of a face changes by some " << rise
+        << " K; take shorter steps or less acceleration" << nl;
 }
 
 

@@ -80,16 +80,29 @@ scalar readAcceleration(const dictionary& dict)
 }
 
 
-//- Patches for which the wall model decides
-labelList patchesWithModel(const List<patchRule>& rules)
+//- Patches for which the wall model decides; one at least
+labelList patchesWithModel(const dictionary& dict, const List<patchRule>& rules)
 {
     labelList found;
     forAll(rules, patchi)
     {
         if (rules[patchi].type == patchRule::interact) found.append(patchi);
     }
+    if (found.empty())
+    {
+        FatalIOErrorInFunction(dict)
+            << "Key 'memory': no patch has the type interact, so no wall would"
+            << " remember anything." << nl
+            << "    Give a wall in 'patches' the type interact, or remove the key."
+            << exit(FatalIOError);
+    }
     return found;
 }
+
+
+//- Key of the names of the fields among the totals of the patches
+const char* const fieldNames = "all:fields";
+
 
 //- Does a process that is wanted act on a wall of the model?
 template<class Wanted>
@@ -209,8 +222,9 @@ Foam::nearWall::wallMemory::wallMemory
     acceleration_(readAcceleration(dict)),
     gravity_(gravity),
     shear_(shear),
-    patches_(patchesWithModel(rules)),
-    fields_(initialFields(cloudName)),
+    patches_(patchesWithModel(dict, rules)),
+    isThick_(patches_.size(), false),
+    fields_(initialFields(cloudName, saved)),
     balance_(mesh, patches_, fields_, saved, folder),
     resistance_(rules.size()),
     captured_(rules.size())
@@ -233,6 +247,8 @@ Foam::nearWall::wallMemory::wallMemory
         film_.reset(new wallFilm(mesh, patches_, walls, model, gravity));
     }
     printSettings(voidage_, bool(film_), acceleration_);
+    reportInitial();
+    reportThick(Info);
 }
 
 
@@ -262,6 +278,14 @@ const Foam::nearWall::wallMemory* Foam::nearWall::wallMemory::find
         found = &one;
     }
     return found;
+}
+
+
+Foam::wordList Foam::nearWall::wallMemory::clouds(const objectRegistry& mesh)
+{
+    wordList names(mesh.lookupClass<wallMemory>().sortedToc());
+    for (word& name : names) name = name.substr(0, name.rfind(':'));
+    return names;
 }
 
 
@@ -350,12 +374,19 @@ nw_wall_heat Foam::nearWall::wallMemory::heatUnder
 
 Foam::nearWall::depositFields Foam::nearWall::wallMemory::initialFields
 (
-    const word& cloudName
+    const word& cloudName,
+    const dictionary& saved
 ) const
 {
     depositFields fields
     (
         mesh_, cloudName, voidage_, anyCooled(), anyProcess("resuspension")
+    );
+    fields.requireComplete
+    (
+        saved.found(fieldNames)
+      ? std::string(nearWall::read<string>(saved, fieldNames))
+      : std::string()
     );
     if (!fields.given())
     {
@@ -370,6 +401,98 @@ Foam::nearWall::depositFields Foam::nearWall::wallMemory::initialFields
     }
     fields.check(patches_);
     return fields;
+}
+
+
+Foam::scalar Foam::nearWall::wallMemory::thickness
+(
+    const label patchi,
+    const label facei
+) const
+{
+    nw_impact here;
+    nw_impact_init(&here);
+    const scalar T = fields_.on(depositFields::temperature, patchi)[facei];
+    if (T > 0) here.T_w = T;
+
+    // Refused only at a temperature without a density; the slag then counts 0
+    model_->apply_deposit(deposit(patchi, facei), voidage_, here);
+    return
+        here.melt_thickness + fields_.on(depositFields::layer, patchi)[facei];
+}
+
+
+void Foam::nearWall::wallMemory::reportInitial() const
+{
+    for (const label patchi : patches_)
+    {
+        const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+        scalar mass = 0, volume = 0;
+        label faces = 0;
+        forAll(area, facei)
+        {
+            const nw_deposit d(deposit(patchi, facei));
+            const scalar here = d.molten + d.frozen + d.powder;
+            mass += here*area[facei];
+            volume += thickness(patchi, facei)*area[facei];
+            faces += here > 0;
+        }
+        mass = sumOfRanks(mass);
+        if (mass <= 0) continue;
+
+        const scalar mean =
+            1e3*sumOfRanks(volume)/sumOfRanks(Foam::sum(area));
+        Info<< "    nearWallInteraction, deposit on patch "
+            << patchesOf(mesh_)[patchi].name() << " in the beginning: " << mass
+            << " kg on " << sumOfRanks(faces) << " of "
+            << sumOfRanks(area.size()) << " faces, mean thickness " << mean
+            << " mm" << nl;
+    }
+}
+
+
+void Foam::nearWall::wallMemory::reportThick(Ostream& os)
+{
+    const scalar domain = mesh_.bounds().mag();
+    forAll(patches_, i)
+    {
+        if (isThick_[i]) continue;
+
+        const label patchi = patches_[i];
+        const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+        scalar thickest = 0, ofCell = 0;
+        forAll(area, facei)
+        {
+            const scalar cell = mesh_.V()[cells[facei]]/area[facei];
+            const scalar here = thickness(patchi, facei);
+            thickest = max(thickest, here);
+            ofCell = max(ofCell, here/cell);
+        }
+        thickest = largestOfRanks(thickest);
+        ofCell = largestOfRanks(ofCell);
+        if (ofCell <= 1 && thickest <= 0.01*domain) continue;
+
+        isThick_[i] = true;
+        os  << "    nearWallInteraction, warning: the deposit on patch "
+            << patchesOf(mesh_)[patchi].name() << " is up to " << 1e3*thickest
+            << " mm thick, " << ofCell << " of the cell beside it and "
+            << 100*thickest/domain << " % of the domain. The gas flows as if it"
+            << " were not there" << nl
+            << "        Are layer_thickness and the fields in m and kg/m2? Else"
+            << " take less acceleration, or move the wall in the mesh" << nl;
+    }
+}
+
+
+Foam::dictionary Foam::nearWall::wallMemory::saved
+(
+    const List<scalarList>& totals
+) const
+{
+    dictionary dict(balance_.saved(totals));
+    dict.add(keyType(word(fieldNames)), string(fields_.names()));
+    return dict;
 }
 
 

@@ -34,15 +34,30 @@ scalar readNumber(const dictionary& dict, const word& key)
 }
 
 
-//- Refuse what externalWallHeatFluxTemperature knows and this condition not
-void refuseOtherModes(const dictionary& dict)
+//- Refuse keys that this condition does not read; those behind `relaxation`
+//  are OpenFOAM's own, or what this condition writes
+void refuseOtherKeys(const dictionary& dict, const string& owner)
 {
     const word mode(readOr<word>(dict, "mode", word("coefficient")));
-    if (mode == "coefficient" && !dict.found("Q") && !dict.found("q")) return;
-
-    FatalIOErrorInFunction(dict)
-        << "nearWallDepositTemperature computes the heat flux: it knows only"
-        << " mode coefficient, without Q and q." << exit(FatalIOError);
+    if (mode != "coefficient" || dict.found("Q") || dict.found("q"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "nearWallDepositTemperature computes the heat flux: it knows only"
+            << " mode coefficient, without Q and q." << exit(FatalIOError);
+    }
+    refuseUnknownKeys
+    (
+        dict,
+        wordList
+        ({
+            "Ta", "h", "thicknessLayers", "kappaLayers", "emissivity",
+            "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation",
+            "type", "value", "mode", "kappaMethod", "refValue", "refGradient",
+            "refGrad", "valueFraction", "radiating", "patchType", "useImplicit",
+            "source", "libs"
+        }),
+        owner
+    );
 }
 
 } // End anonymous namespace
@@ -50,7 +65,8 @@ void refuseOtherModes(const dictionary& dict)
 
 Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
 (
-    const dictionary& dict
+    const dictionary& dict,
+    const string& owner
 )
 :
     Ta(readNumber(dict, "Ta")),
@@ -76,8 +92,9 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
         )
     )
 {
-    refuseOtherModes(dict);
+    refuseOtherKeys(dict, owner);
     if (dict.found("h")) h = readNumber(dict, "h");
+    warnOfCelsius(Ta, owner + ": Ta");
     if (dict.found("surroundingsTemperature"))
     {
         surroundingsTemperature = readNumber(dict, "surroundingsTemperature");
@@ -105,6 +122,14 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
             << "Give 'emissivity' and 'surroundingsTemperature' [K] together, or"
             << " 'qr' with a radiation model." << exit(FatalIOError);
     }
+    if (emissivity > 0 && qr != "none")
+    {
+        FatalIOErrorInFunction(dict)
+            << owner.c_str() << ": 'qr' and 'emissivity' are both given, and the"
+            << " wall would take up its radiation twice." << nl
+            << "    Remove 'qr', or 'emissivity' and 'surroundingsTemperature'."
+            << exit(FatalIOError);
+    }
 }
 
 
@@ -126,8 +151,8 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::write
     if (h < VGREAT) writeKey(os, "h", h);
     if (thicknessLayers.size())
     {
-        writeKey(os, "thicknessLayers", thicknessLayers);
-        writeKey(os, "kappaLayers", kappaLayers);
+        writeTypedList(os, "thicknessLayers", thicknessLayers);
+        writeTypedList(os, "kappaLayers", kappaLayers);
     }
     if (emissivity > 0)
     {
@@ -165,7 +190,12 @@ nearWallDepositTemperatureFvPatchScalarField
 )
 :
     mixedFvPatchScalarField(p, iF),
-    given_(dict)
+    given_
+    (
+        dict,
+        "Patch '" + p.name() + "' of " + iF.name()
+      + ", nearWallDepositTemperature"
+    )
 {
     const dimensionSet& K = iF.dimensions();
     fvPatchScalarField::operator=(readField(dict, "value", K, p.size()));
@@ -196,7 +226,9 @@ nearWallDepositTemperatureFvPatchScalarField
 :
     mixedFvPatchScalarField(from, p, iF, m),
     given_(from.given_)
-{}
+{
+    if (from.radiating_.size()) radiating_ = nearWall::mapped(m, from.radiating_);
+}
 
 
 const Foam::nearWall::wallMemory*
@@ -286,9 +318,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
     }
     if (given_.qr != "none")
     {
-        const scalarField& qr =
-            db().lookupObject<volScalarField>(given_.qr)
-           .boundaryField()[patch().index()];
+        const scalarField& qr = radiated();
         const scalarField& T = *this;
         const scalarField& then = radiating_.size() == size() ? radiating_ : T;
         forAll(found, i)
@@ -296,8 +326,6 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
             // What a black surface takes from the model, which computed its
             // flux at an earlier temperature: it loses less as it cools
             nw_wall_cooling& c = found[i];
-            const scalar others = c.irradiation - sigma*pow4(T[i]);
-            c.further_flux = c.emissivity*others;
             c.emissivity = 1;
             c.irradiation = max(qr[i] + sigma*pow4(then[i]), scalar(0));
         }
@@ -313,16 +341,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
     const nearWall::wallMemory* const deposits = memory();
     if (!deposits)
     {
-        // The cloud is made after the temperature, and works from the first
-        // step on
-        const Time& time = db().time();
-        if (time.timeIndex() > time.startTimeIndex() + 1 && !isSaid_)
-        {
-            isSaid_ = true;
-            Info<< "nearWallDepositTemperature, warning: no cloud with the key"
-                << " 'memory' and a rule 'interact' leaves a deposit on patch "
-                << patch().name() << "; the wall stays bare" << endl;
-        }
+        reportBare();
         return found;
     }
 
@@ -335,6 +354,48 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
            .deposit_resistance;
     }
     return found;
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::reportBare() const
+{
+    // The cloud is made after the temperature, and works from the first step on
+    const Time& time = db().time();
+    if (time.timeIndex() <= time.startTimeIndex() + 1 || isSaid_) return;
+
+    isSaid_ = true;
+    if (given_.cloud.empty())
+    {
+        Info<< "nearWallDepositTemperature, warning: no cloud with the key"
+            << " 'memory' and a rule 'interact' leaves a deposit on patch "
+            << patch().name() << "; the wall stays bare" << endl;
+        return;
+    }
+    FatalErrorInFunction
+        << "Patch '" << patch().name() << "' of " << internalField().name()
+        << ", key 'cloud': '" << given_.cloud << "' leaves no deposit there."
+        << nl << "    Clouds with the key 'memory': "
+        << nearWall::wallMemory::clouds(db()) << nl
+        << "    Name one of them that has the rule 'interact' for this patch,"
+        << " or remove the key." << exit(FatalError);
+}
+
+
+const Foam::scalarField&
+Foam::nearWallDepositTemperatureFvPatchScalarField::radiated() const
+{
+    if (!db().foundObject<volScalarField>(given_.qr))
+    {
+        FatalErrorInFunction
+            << "Patch '" << patch().name() << "' of " << internalField().name()
+            << ", key 'qr': there is no field '" << given_.qr << "'." << nl
+            << "    The radiation models of OpenFOAM call theirs qr; without"
+            << " such a model give 'emissivity' and 'surroundingsTemperature'."
+            << exit(FatalError);
+    }
+    return
+        db().lookupObject<volScalarField>(given_.qr)
+       .boundaryField()[patch().index()];
 }
 
 
@@ -355,6 +416,51 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::noteRadiation
 }
 
 
+#if defined(OPENFOAM)
+void Foam::nearWallDepositTemperatureFvPatchScalarField::autoMap
+(
+    const fvPatchFieldMapper& m
+)
+{
+    mixedFvPatchScalarField::autoMap(m);
+    if (radiating_.size()) radiating_.autoMap(m);
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::rmap
+(
+    const fvPatchScalarField& from,
+    const labelList& addressing
+)
+{
+    mixedFvPatchScalarField::rmap(from, addressing);
+    const scalarField& radiating =
+        refCast<const nearWallDepositTemperatureFvPatchScalarField>(from)
+       .radiating_;
+    if (radiating.empty()) return;
+
+    if (radiating_.size() != size()) radiating_ = *this;
+    radiating_.rmap(radiating, addressing);
+}
+#elif defined(NEARWALL_PATCH_FIELD_MAP)
+void Foam::nearWallDepositTemperatureFvPatchScalarField::map
+(
+    const fvPatchScalarField& from,
+    const fvPatchFieldMapper& m
+)
+{
+    mixedFvPatchScalarField::map(from, m);
+    const scalarField& radiating =
+        refCast<const nearWallDepositTemperatureFvPatchScalarField>(from)
+       .radiating_;
+    if (radiating.empty()) return;
+
+    if (radiating_.size() != size()) radiating_ = *this;
+    m(radiating_, radiating);
+}
+#endif
+
+
 void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
 {
     if (updated()) return;
@@ -368,9 +474,7 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
     scalarField qr(size(), Zero);
     if (hasModel)
     {
-        qr =
-            db().lookupObject<volScalarField>(given_.qr)
-           .boundaryField()[patch().index()];
+        qr = radiated();
         noteRadiation(qr);
     }
     const scalarField resistance(given_.resistance() + depositResistance());

@@ -111,10 +111,12 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     ),
     carbon_(nearWall::readOr<word>(coeffs(), "carbon", word("C")))
 {
+    nearWall::warnOfCelsius(particleTemperature_, "particleTemperature");
     makeRunState();
     if (nearWall::collides(static_cast<const fullCloudType*>(nullptr)))
     {
         nearWall::refuseWallSpring(owner.subModelProperties());
+        run_->expectContacts();
     }
     owner.functions().append
     (
@@ -374,8 +376,13 @@ void Foam::nearWallInteraction<CloudType>::apply
     const patchRule& rule = this->rule(pp.index());
     const bool leaves = v.vn <= 0;
 
-    // No impact: the parcel leaves the wall, for instance one that moves away
-    if (rule.type == patchRule::interact && leaves) return;
+    // No impact: the parcel leaves the wall, for instance one that moves away,
+    // or moves along it but for rounding
+    if (rule.type == patchRule::interact && !v.approaches)
+    {
+        if (!leaves) p.U() = v.rebound(p.U(), 1, 0);
+        return;
+    }
 
     impactEvent e(eventOf(p, pp, facei, v));
     if (rule.type == patchRule::interact)
@@ -422,27 +429,33 @@ bool Foam::nearWallInteraction<CloudType>::correct
 
 
 template<class CloudType>
-void Foam::nearWallInteraction<CloudType>::touch
+bool Foam::nearWallInteraction<CloudType>::touch
 (
     parcelType& p,
     const label patchi,
     const point& site,
-    const vector& wall,
+    const relativeVelocity& v,
+    const scalar fromForces,
     bool& keepParticle
 )
 {
-    if (!nearWall::isMoving(p) || rule(patchi).type == patchRule::pass)
+    const patchRule::ruleType type = rule(patchi).type;
+    if (!nearWall::isMoving(p) || type == patchRule::pass || !v.approaches)
     {
-        return;
+        return false;
     }
-    const vector towards(site - nearWall::positionOf(p, mesh()));
-    const vector normal(towards/(mag(towards) + VSMALL));
-    const relativeVelocity v(p.U(), normal, wall);
-    if (v.vn <= 0) return;
-
+    const bool canRest =
+        type == patchRule::interact || type == patchRule::rebound;
+    if (canRest && v.vn <= fromForces)
+    {
+        p.U() -= v.vn*v.normal;
+        run_->addCarried();
+        return true;
+    }
     const polyPatch& pp = nearWall::patchesOf(mesh())[patchi];
     const label facei = faceAt(pp, p.cell(), site);
     if (facei >= 0) apply(p, pp, facei, v, keepParticle);
+    return false;
 }
 
 

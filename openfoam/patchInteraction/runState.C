@@ -6,9 +6,25 @@
 
 #include <cmath>
 
+Foam::label Foam::nearWall::toldImpacts::due
+(
+    const label inStep,
+    const std::string& cause,
+    const bool writes
+)
+{
+    untold_ += inStep;
+    const bool isNew = inStep > 0 && causes_.insert(cause).second;
+    const label n = isNew || writes ? untold_ : 0;
+    if (n > 0) untold_ = 0;
+    return n;
+}
+
+
 Foam::nearWall::runState::runState(const statisticsSource& source)
 :
     mesh_(source.mesh),
+    setup_(source),
     statisticsInterval_
     (
         readChecked<label>
@@ -27,6 +43,7 @@ Foam::nearWall::runState::runState(const statisticsSource& source)
     stay(source),
     deposit(depositCloud::read(source.mesh, source.cloudName))
 {
+    setup_.reportChanges(Info, source.savedAs("setup"));
     if (readOr<Switch>(source.coeffs, "writeFields", Switch(true)))
     {
         const bool erodes = source.models.erodes();
@@ -44,7 +61,15 @@ void Foam::nearWall::runState::makeMemory
 )
 {
     const dictionary& coeffs = source.coeffs;
-    if (!coeffs.found("memory")) return;
+    if (!coeffs.found("memory"))
+    {
+        if (source.savedAs("memory").empty()) return;
+
+        Info<< "    nearWallInteraction, warning: the walls of the earlier run"
+            << " remembered a deposit, and the key 'memory' is gone: impacts meet"
+            << " bare walls, and the fields of the deposit are not written" << nl;
+        return;
+    }
 
     if (!coeffs.isDict("memory"))
     {
@@ -135,33 +160,46 @@ bool Foam::nearWall::runState::addUnusable(impactEvent& e)
 }
 
 
-void Foam::nearWall::runState::finishUnusable(Ostream& os)
+void Foam::nearWall::runState::finishUnusable(Ostream& os, const bool writes)
 {
     const label n = sumOfRanks(unusable_);
     unusable_ = 0;
-    if (n == 0) return;
-
-    List<string> reasons(Pstream::nProcs());
-    reasons[Pstream::myProcNo()] = unusableReason_;
-    unusableReason_.clear();
-    Pstream::gatherList(reasons);
     string reason;
-    forAll(reasons, i)
+    if (n > 0)
     {
-        if (reason.empty()) reason = reasons[i];
+        List<string> reasons(Pstream::nProcs());
+        reasons[Pstream::myProcNo()] = unusableReason_;
+        unusableReason_.clear();
+        Pstream::gatherList(reasons);
+        forAll(reasons, i)
+        {
+            if (reason.empty()) reason = reasons[i];
+        }
     }
-    os  << "    nearWallInteraction: " << n << " impact" << (n == 1 ? "" : "s")
-        << " of this step could not be decided (the first: " << reason.c_str()
-        << "); the parcels rebound without loss, or are removed when"
+
+    // One cause, whatever the value of an impact
+    const std::string cause(reason.substr(0, reason.find(", asked for")));
+    const label told = toldUnusable_.due(n, cause, writes);
+    if (told == 0) return;
+
+    os  << "    nearWallInteraction: " << told << " impact"
+        << (told == 1 ? "" : "s") << " could not be decided";
+    if (!reason.empty()) os << " (the first: " << reason.c_str() << ")";
+    os  << "; the parcels rebound without loss, or are removed when"
         << " their speed or mass is not a number" << nl;
 }
 
 
-void Foam::nearWall::runState::finishUnknownInjectors(Ostream& os)
+void Foam::nearWall::runState::finishUnknownInjectors
+(
+    Ostream& os,
+    const bool writes
+)
 {
     if (unknownInjector_ < 0) return;
 
-    const label n = sumOfRanks(unknownInjector_);
+    const label n =
+        toldUnknown_.due(sumOfRanks(unknownInjector_), "injector", writes);
     unknownInjector_ = 0;
     if (n == 0) return;
 
@@ -169,6 +207,17 @@ void Foam::nearWall::runState::finishUnknownInjectors(Ostream& os)
         << (n == 1 ? "" : "s") << " of parcels without the number of an"
         << " injector (in the step of their injection OpenFOAM has not set it"
         << " yet); the cloud's model decided" << nl;
+}
+
+
+void Foam::nearWall::runState::finishCarried(Ostream& os)
+{
+    if (carried_ < 0 || sumOfRanks(carried_) == 0) return;
+
+    carried_ = -1;
+    os  << "    nearWallInteraction: parcels rest on walls or slide along them"
+        << " from now on; such a contact is no impact, the wall carries them"
+        << " without friction" << nl;
 }
 
 
@@ -185,6 +234,7 @@ void Foam::nearWall::runState::finishMemory
     memory->finishStep(time.deltaTValue());
     const List<scalarList> totals(memory->totals());
     memory->report(os, totals, time.value(), writeRow);
+    if (time.writeTime()) memory->reportThick(os);
     if (time.writeTime()) saved.add("memory", memory->saved(totals));
 }
 
@@ -221,13 +271,15 @@ Foam::dictionary Foam::nearWall::runState::finishStep
     const List<scalarList> totals(totals_.totals());
     totals_.report(os, totals);
     density_.report(os);
-    finishUnusable(os);
-    finishUnknownInjectors(os);
+    finishUnusable(os, writes);
+    finishUnknownInjectors(os, writes);
+    finishCarried(os);
     finishMemory(os, writeRow, saved);
     if (content) finishBalance(os, *content, writeRow, saved);
     if (writeRow) totals_.writeRows(mesh_.time().value(), totals);
     if (!writes) return saved;
 
+    saved.add("setup", setup_.saved());
     saved.add("patches", totals_.saved(totals));
     saved.add("outsideRange", ranges_.write(os));
     saved.add("statistics", distributions_.write());

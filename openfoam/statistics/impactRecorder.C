@@ -7,10 +7,12 @@
 #include "impactKey.H"
 #include "particle.H"
 #include "OSspecific.H"
+#include "outputTable.H"
 #include "versionCompat.H"
 #include "wordReList.H"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
@@ -376,12 +378,9 @@ void Foam::nearWall::impactRecorder::rewrite
             inFile_[halvings] += 1;
             to << line << '\n';
         }
+        errno = 0;
         to.close();
-        if (!to)
-        {
-            WarningInFunction << "Cannot write " << newFile << endl;
-            return;
-        }
+        requireWritten(bool(to), newFile);
     }
     mv(newFile, file_);
 }
@@ -419,8 +418,9 @@ void Foam::nearWall::impactRecorder::append(const std::vector<row>& rows)
         to << r.text << '\n';
         inFile_[halvingsOf(r.hash)] += 1;
     }
+    errno = 0;
     to.close();
-    if (!to) WarningInFunction << "Cannot write to " << file_ << endl;
+    requireWritten(bool(to), file_);
 }
 
 

@@ -5,8 +5,10 @@
 #include "exactText.H"
 #include "OFstream.H"
 #include "OSspecific.H"
+#include "outputTable.H"
 #include "versionCompat.H"
 
+#include <cerrno>
 #include <sstream>
 
 Foam::nearWall::rangeCounts::rangeCounts(const statisticsSource& source)
@@ -82,13 +84,17 @@ void Foam::nearWall::rangeCounts::writeFile
     if (!Pstream::master()) return;
 
     mkDir(folder_);
-    OFstream file(folder_/"outsideRange.txt");
+    const fileName path(folder_/"outsideRange.txt");
+    OFstream file(path);
     file<< "# hits patch range" << nl;
     for (const auto& each : totals)
     {
         file<< exactText(each.second).c_str() << ' ' << each.first.c_str()
             << nl;
     }
+    errno = 0;
+    file<< flush;
+    requireWritten(file.stdStream().good(), path);
 }
 
 

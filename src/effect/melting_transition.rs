@@ -20,7 +20,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["T_p"],
     stream: None,
     parameters: &[
-        Parameter::new("temperature", "K", (1.0, 1e4), Search::InputRange("T_p"))
+        Parameter::new("temperature", "K", (100.0, 1e4), Search::InputRange("T_p"))
             .kind(QuantityKind::Temperature)
             .about("particle temperature at which half of the impacts stick"),
         Parameter::new("width", "K", (1e-3, 1e4), Search::InputWidth("T_p"))
@@ -37,7 +37,26 @@ pub(super) const INFO: EffectInfo = EffectInfo {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Model;
     use crate::impact::Impact;
+
+    #[test]
+    fn celsius_is_refused_with_the_value_in_kelvin() {
+        let model = |temperature: &str| {
+            let text = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+                [normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.5\n\
+                [[effects]]\nkind = \"melting-transition\"\nwidth = 7\ntemperature = ";
+            Model::from_toml("model", &format!("{text}{temperature}\n"))
+        };
+        assert!(model("353.15").is_ok());
+        for given in ["80", "{ value = 80, low = 78, high = 82 }"] {
+            let message = model(given).unwrap_err().to_string();
+            assert!(
+                message.contains("nothing softens or melts at 80 K") && message.contains("353.15"),
+                "{message}"
+            );
+        }
+    }
 
     #[test]
     fn troiano_capture_against_temperature() {

@@ -21,7 +21,7 @@ pub(super) const INFO: EffectInfo = EffectInfo {
     inputs: &["T_p"],
     stream: None,
     parameters: &[
-        Parameter::new("onset", "K", (0.0, 1e4), Search::InputRange("T_p"))
+        Parameter::new("onset", "K", (100.0, 1e4), Search::InputRange("T_p"))
             .kind(QuantityKind::Temperature)
             .about("particle temperature from which it softens"),
         Parameter::new("scale", "K", (1.0, 1e5), Search::InputWidth("T_p"))

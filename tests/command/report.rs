@@ -418,10 +418,15 @@ fn folders_that_are_no_finished_cases_are_refused_with_the_remedy() {
     std::fs::create_dir(folder.path().join("empty")).unwrap();
     skeleton(&folder.path().join("unrun"), "localInteraction");
     skeleton(&folder.path().join("cases/run/inner"), "localInteraction");
+    let early = folder.path().join("early");
+    skeleton(&early, "nearWallInteraction");
+    let balance = "# time_s injected_kg\n0.02 0\n";
+    write(&early, "postProcessing/nearWallInteraction/coalCloud1/0/balance.dat", balance);
     for (name, part) in [
         ("none", "there is no such folder"),
         ("empty", "not an OpenFOAM case (it has no system/controlDict)"),
         ("unrun", "no results found"),
+        ("early", "no parcel was injected or hit a wall until its end"),
         ("cases", "Cases below it: cases/run/inner"),
     ] {
         let output = nearwall(folder.path(), &["report", name]);

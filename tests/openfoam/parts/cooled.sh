@@ -237,6 +237,7 @@ case_forgotten() {
         && ! grep -q "patch lid has" log.number && ! grep -q "stays bare" log.number
     then ok forgotten/number; else bad forgotten/number "the log does not say so"; fi
     sed -i 's/memory {}//' constant/interaction
+    sed -i 's/cloud coalCloud1; //' 0/T
     solve forgotten memory "$solver" || return
     if [ "$(grep -c "leaves a deposit on patch floor; the wall stays bare" log.memory)" = 1 ]
     then ok forgotten/memory; else bad forgotten/memory "the log does not say so once"; fi

@@ -168,6 +168,7 @@ case_memory-ranks() {
     then ok "memory-ranks/all-states (drained $(last "$f/floor.wall.dat" drained_kg) kg)"
     else bad memory-ranks/all-states "nothing drained, melted or froze"; fi
     check_memory_balance memory-ranks/balance "$f"/*.wall.dat
+    if grep -lE -- '(^| )-0( |$)' "$f"/*.dat > minus; then bad memory-ranks/minus-zero "in $(head -n 1 minus)"; else ok memory-ranks/minus-zero; fi
     totals_but_residual 0 > totals.serial
     memory_values 0.2 > values.serial
 

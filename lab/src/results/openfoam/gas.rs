@@ -16,6 +16,7 @@ use super::foam_file::{FoamError, FoamFile, is_written};
 use super::parcel_lists::{ParcelPlaces, numbers, places};
 use super::recorded::Carbon;
 use super::written_time::{WrittenTime, has_collated};
+use super::{entries, file_name};
 use crate::results::gas::{CutPlane, FlyingParcel, GasCut, GasQuantity, ParcelQuantity};
 use crate::results::{MapCell, range};
 
@@ -43,6 +44,9 @@ pub enum GasError {
          of gas and parcels"
     )]
     Collated(String),
+    /// No field of the gas.
+    #[error("{0}: it holds neither T nor U of the gas. Until then there is no picture of gas and parcels")]
+    NoGas(String),
     /// The mesh is too large to be cut.
     #[error(
         "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows it in \
@@ -51,7 +55,7 @@ pub enum GasError {
     TooLarge(String),
 }
 
-/// Reads gas and parcels; `None` when the case has no parcels, no mesh, or neither `T` nor `U` at that time.
+/// Reads gas and parcels; `None` when the case has no parcels or no mesh.
 ///
 /// # Errors
 /// Why they cannot be read, for the page.
@@ -63,24 +67,39 @@ pub fn read_last(case: &Path, cloud: &str) -> Result<Option<GasCut>, GasError> {
     let Some(source) = source else {
         return if has_collated(case) { Err(GasError::Collated(shown())) } else { Ok(None) };
     };
-    let has = |name: &str| source.roots.iter().all(|root| is_written(&source.file(root, name)));
-    let quantity = match (has("T"), has("U")) {
-        (true, _) => GasQuantity::Temperature,
-        (false, true) => GasQuantity::Speed,
-        (false, false) => return Ok(None),
+    let temperature = gas_field(&source, "T").map(|name| (GasQuantity::Temperature, name));
+    let speed = || gas_field(&source, "U").map(|name| (GasQuantity::Speed, name));
+    let Some(gas) = temperature.or_else(speed) else {
+        let root = source.roots.first().map_or(case, PathBuf::as_path);
+        return Err(GasError::NoGas(source.file(root, "").display().to_string()));
     };
     let faces = source.roots.iter().map(|root| source.mesh(root).path("faces"));
     let size: u64 = faces.filter_map(|path| std::fs::metadata(path).ok()).map(|file| file.len()).sum();
     if size > LARGEST_MESH {
         return Err(GasError::TooLarge(shown()));
     }
-    cut(&source, cloud, quantity, Carbon::of(case, cloud).as_ref())
+    cut(&source, cloud, gas, Carbon::of(case, cloud).as_ref())
+}
+
+/// The name of a field of the gas at the written time: its own, or with that of its phase, as `U.air` of MPPICFoam.
+fn gas_field(source: &WrittenTime, name: &str) -> Option<String> {
+    let has = |name: &str| source.roots.iter().all(|root| is_written(&source.file(root, name)));
+    if has(name) {
+        return Some(name.to_owned());
+    }
+    let folder = source.file(source.roots.first()?, "");
+    let names = entries(&folder, Path::is_file)
+        .into_iter()
+        .map(|path| file_name(&path).trim_end_matches(".gz").to_owned());
+    names
+        .filter(|file| file.strip_prefix(name).is_some_and(|phase| phase.starts_with('.')))
+        .find(|file| has(file))
 }
 
 fn cut(
     source: &WrittenTime,
     cloud: &str,
-    quantity: GasQuantity,
+    (quantity, field): (GasQuantity, String),
     carbon: Option<&Carbon>,
 ) -> Result<Option<GasCut>, GasError> {
     let read = |root: &PathBuf| MeshCells::read(&source.mesh(root));
@@ -94,7 +113,7 @@ fn cut(
     let coloured_by = clouds.iter().find_map(|folder| parcel_quantity(folder, carbon));
     let (mut cells, mut parcels, mut resting) = (Vec::new(), Vec::new(), 0);
     for ((root, mesh), folder) in source.roots.iter().zip(&meshes).zip(&clouds) {
-        let values = gas_values(source, root, quantity, mesh.count)?;
+        let values = gas_values(&source.file(root, &field), quantity, mesh.count)?;
         let own = mesh.cut(&plane).into_iter();
         cells.extend(own.map(|(cell, outline)| MapCell::new(outline, values[cell])));
         if has_places(folder) {
@@ -111,17 +130,12 @@ fn cut(
 }
 
 /// The values of the gas in all cells of the case or of one rank.
-fn gas_values(
-    source: &WrittenTime,
-    root: &Path,
-    quantity: GasQuantity,
-    cells: usize,
-) -> Result<Vec<f64>, FoamError> {
-    let (name, parts) = match quantity {
-        GasQuantity::Temperature => ("T", 1),
-        GasQuantity::Speed => ("U", 3),
+fn gas_values(path: &Path, quantity: GasQuantity, cells: usize) -> Result<Vec<f64>, FoamError> {
+    let parts = match quantity {
+        GasQuantity::Temperature => 1,
+        GasQuantity::Speed => 3,
     };
-    let mut file = FoamFile::open(&source.file(root, name))?;
+    let mut file = FoamFile::open(path)?;
     file.seek("internalField")?;
     let values = file.field_values(parts, cells, "cells")?;
     let speed = |velocity: &[f64]| velocity.iter().map(|part| part * part).sum::<f64>().sqrt();

@@ -42,6 +42,12 @@ pub enum CaseError {
         "{0}: not an OpenFOAM case (it has no system/controlDict); give the folder that the solver ran in{1}"
     )]
     NotACase(String, String),
+    /// A case that ran, but into which no parcel came.
+    #[error(
+        "{0}: the run has results, but no parcel was injected or hit a wall until its end; run it beyond the start of the \
+         injection (SOI of its injectors)"
+    )]
+    NoParcels(String),
     /// A case that has not run, or whose results are not where they are looked for; the second text as above.
     #[error(
         "{0}: no results found: neither postProcessing/nearWallInteraction nor a log.* with \"Parcel fate\" lines; run \
@@ -98,7 +104,11 @@ fn read_tables(folder: &Path) -> Result<Vec<RunResults>, CaseError> {
         }
         results.escaped = log.escaped;
     }
+    let has_run = !clouds.is_empty();
     clouds.retain(|_, results| is_active(results));
+    if has_run && clouds.is_empty() {
+        return Err(CaseError::NoParcels(shown));
+    }
     if clouds.is_empty() {
         return Err(CaseError::NoResults(shown, cases_below(folder)));
     }
