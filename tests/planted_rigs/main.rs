@@ -5,6 +5,7 @@
 //!   `docs/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter` checks
 //!   that runs which scatter more than stated name no cause, and the seconds.
+//! - `... --ignored rigs_with_a_wrong_case` checks that the wall law is not blamed for the case.
 //! - `cargo test --release --test planted_rigs -- --nocapture clear` checks that clear effects are noticed.
 //! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that
 //!   follow the advice on what to measure next with laboratories that do not.
@@ -57,6 +58,7 @@ mod source;
 #[allow(dead_code, reason = "impacts use all of it")]
 #[path = "../planted_effects/world.rs"]
 mod world;
+mod wrong_case;
 
 use rayon::prelude::*;
 
@@ -94,6 +96,23 @@ fn rigs_that_scatter() {
     };
     let all: Vec<_> = sets::scattered().into_iter().map(one).collect();
     let failures = score::silence(&all, FALSE_ALARMS, LONGEST);
+    assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// The wall law is not blamed for a wrong number of the case, and the number is named or left open.
+#[test]
+#[ignore = "minutes: cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with_a_wrong_case"]
+fn rigs_with_a_wrong_case() {
+    let seed = random::seed();
+    let one = |recipe: &sets::Recipe| {
+        let set = recipe.make(seed);
+        let (diagnosis, seconds) = run::diagnosed(&set, seed);
+        let judged = wrong_case::judge(&set, &diagnosis, seconds);
+        println!("{}", judged.line());
+        judged
+    };
+    let all: Vec<_> = sets::wrong_cases().par_iter().map(one).collect();
+    let failures = wrong_case::report(&all);
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 
