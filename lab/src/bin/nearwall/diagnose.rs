@@ -200,6 +200,9 @@ fn write_rig(
         std::iter::once(arguments.data.as_path()).chain(inputs.iter().copied()).collect();
     let mut results =
         vec![("report.html", page.as_str()), ("extended.toml", &found.extended), ("diagnosis.json", &json)];
+    if let Some(case) = &found.extended_case {
+        results.push(("extended_case.toml", case));
+    }
     if !found.next.is_empty() {
         results.push(("next_experiments.csv", &found.next_table));
     }
