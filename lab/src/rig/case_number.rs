@@ -242,3 +242,45 @@ fn size(value: &Value) -> Option<f64> {
     let squares: Option<Vec<f64>> = list.iter().map(|one| number_of(one).map(|one| one * one)).collect();
     Some(squares?.iter().sum::<f64>().sqrt())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CASE: &str = "[gas]\nvelocity = [0, 3, -4]\ntemperature = 300\n[particles]\nspeed = { distribution = \"uniform\", \
+                        min = 1, max = 3 }\ndiameter = { distribution = \"rosin-rammler\", scale = 60e-6, exponent = 2 }\n\
+                        angle_deg = 88\ntemperature = 2000\nposition = { shape = \"point\", at = [0, 0, 1] }\n\
+                        [[walls]]\nname = \"plate\"\ntemperature = { axis = \"z\", at = [0, 1], value = [400, 500] }\n";
+
+    /// The numbers of a case, and each two standard errors up, by hand.
+    #[test]
+    fn numbers_of_a_case_are_found_and_moved() {
+        let document: DocumentMut = CASE.parse().unwrap();
+        let errors = BTreeMap::from([("gas.temperature".to_owned(), 4.0)]);
+        let numbers = CaseNumber::all(&document, &errors);
+        let of = |key: &str, path: &str| {
+            let number = numbers.iter().find(|one| one.key == key).unwrap();
+            let mut moved = document.clone();
+            number.shift(&mut moved, 2.0);
+            let mut item = find_mut(&mut moved, path).unwrap().clone();
+            let value = item.as_value_mut().unwrap();
+            let value = value.as_array().and_then(|list| list.get(list.len() - 1)).unwrap_or(value).clone();
+            (number.error, number_of(&value).unwrap())
+        };
+        let speed = (0.05_f64 * 2.0).exp();
+        for (key, path, error, moved) in [
+            ("gas.velocity", "gas.velocity", 0.25, -4.0 * speed),
+            ("gas.temperature", "gas.temperature", 4.0, 308.0),
+            ("particles.speed", "particles.speed.max", 0.1, 3.0 * speed),
+            ("particles.diameter.scale", "particles.diameter.scale", 3e-6, 60e-6 * speed),
+            ("particles.diameter.exponent", "particles.diameter.exponent", 0.2, 2.0 * (-0.2_f64).exp()),
+            ("particles.angle_deg", "particles.angle_deg", 2.0, 88.0),
+            ("particles.temperature", "particles.temperature", 20.0, 2040.0),
+            ("walls.plate.temperature", "walls.plate.temperature.value", 10.0, 520.0),
+        ] {
+            let (own, value) = of(key, path);
+            assert!((own / error - 1.0).abs() < 1e-12 && (value / moved - 1.0).abs() < 1e-12, "{key}: {own} {value}");
+        }
+        assert_eq!(numbers.len(), 8);
+    }
+}

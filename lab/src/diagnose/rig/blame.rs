@@ -152,12 +152,14 @@ pub(super) fn sentences(parties: &Parties, blame: &[Blame], named: &[&str]) -> S
     if blame.is_empty() {
         return String::new();
     }
+    let short = |value: &f64| format!("{value:.2e}").parse::<f64>().unwrap_or(*value);
     let share = |one: &Blame| {
         let percent = 100.0 * one.share;
         match &one.number {
             None => format!("the {} {percent:.0} %", one.party),
             Some(BlamedNumber { unit, from, value, low, high, .. }) => {
                 let key = one.party.trim_start_matches("case:");
+                let [value, low, high] = [value, low, high].map(short);
                 format!("{key} {percent:.0} % ({value} {unit}, {low} to {high}, instead of {from})")
             }
         }

@@ -14,7 +14,7 @@ use super::{Data, FittedScatter, Noise, PreparedReading, PreparedReadings, Weigh
 use crate::rig::{PredictedReading, away_from_edges};
 
 /// Steps of Newton's method to the best errors.
-const STEPS: usize = 3;
+const STEPS: usize = 2;
 /// Difference of log odds over which the density of a count is differentiated [1]: that of its table.
 const LOG_ODDS_STEP: f64 = 0.06;
 /// Information of the readings on a direction, over that of its prior, below which it is left out [1].
@@ -100,16 +100,14 @@ impl Data {
         }
         let mut errors = DVector::zeros(self.case_errors.len());
         let mut at = prepared.clone();
-        let mut best: Option<Settled> = None;
-        for step in 0..=STEPS {
+        let (mut first, mut volume) = (start, 0.0);
+        for step in 0..STEPS {
             let slopes = self.slopes(&at, weighted);
             let matrix = normal_matrix(&self.case_errors, &slopes) + DMatrix::identity(errors.len(), errors.len());
             let Some(root) = matrix.cholesky() else { break };
-            let volume: f64 = root.l_dirty().diagonal().iter().map(|one| one.ln()).sum();
-            let likelihood = if step == 0 { start } else { self.score_as_is(&at, weighted) };
-            let score = likelihood - 0.5 * errors.norm_squared() - volume;
-            if best.as_ref().is_none_or(|best| score > best.score) {
-                best = Some(Settled { prepared: at.clone(), score });
+            volume = root.l_dirty().diagonal().iter().map(|one| one.ln()).sum();
+            if step == 0 {
+                first = start - volume;
             }
             let pull = |own: &Vec<f64>| slopes.iter().map(|(index, slope, _)| own[*index] * slope).sum::<f64>();
             let gradient = DVector::from_iterator(errors.len(), self.case_errors.iter().map(pull)) - &errors;
@@ -117,7 +115,13 @@ impl Data {
             at.shift(&self.case_errors, change.as_slice());
             errors += change;
         }
-        best.unwrap_or_else(|| Settled { prepared: prepared.clone(), score: start })
+        let last = self.score_as_is(&at, weighted) - 0.5 * errors.norm_squared() - volume;
+        // Newton's method may lead astray where a few readings decide on the scatter.
+        if last >= first {
+            Settled { prepared: at, score: last }
+        } else {
+            Settled { prepared: prepared.clone(), score: first }
+        }
     }
 
     /// Slopes and curvatures of the log likelihood over the predictions, with the scatter that is
