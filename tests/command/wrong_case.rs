@@ -40,7 +40,8 @@ fn a_wrong_gas_speed_is_found_and_the_wall_law_is_not_blamed() {
 #[test]
 fn stated_errors_change_no_simulation() {
     let case = text(&Path::new(FOLDER).join("case.toml"));
-    let wrong = case.replace("angle_deg = { value = 80, error = 1 }", "angel_deg = { value = 80, error = 1 }");
+    let wrong =
+        case.replace("angle_deg = { value = 80, error = 1 }", "angel_deg = { value = 80, error = 1 }");
     let read = Case::from_toml("case.toml", &wrong, Path::new(FOLDER));
     let place = wrong.lines().position(|line| line.starts_with("angel_deg")).unwrap() + 1;
     let message = read.unwrap_err().to_string();

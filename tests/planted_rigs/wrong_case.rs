@@ -242,13 +242,17 @@ impl CaseJudgement {
             _ => "not to be seen",
         };
         let said = self.said.join(", ");
-        format!("{verdict}: {name} off by {widths:.1} widths, seen by {seen:.1} deviations, {seconds:.1} s: {said}")
+        format!(
+            "{verdict}: {name} off by {widths:.1} widths, seen by {seen:.1} deviations, {seconds:.1} s: {said}"
+        )
     }
 }
 
 /// Prints the table; what fails.
 pub fn report(all: &[CaseJudgement]) -> Vec<String> {
-    println!("\n| wrong number | sets | seen | wall law blamed | right one named | named or listed | longest [s] |");
+    println!(
+        "\n| wrong number | sets | seen | wall law blamed | right one named | named or listed | longest [s] |"
+    );
     println!("|---|---|---|---|---|---|---|");
     let mut families: BTreeMap<&str, Vec<&CaseJudgement>> = BTreeMap::new();
     all.iter().for_each(|one| families.entry(&one.family).or_default().push(one));

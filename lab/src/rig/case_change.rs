@@ -123,7 +123,9 @@ mod tests {
     /// A straight line stays one, the places are met, and what does not exist keeps the last change.
     #[test]
     fn changes_are_interpolated() {
-        let at = |widths: f64| vec![reading(0.5 + 0.02 * widths), reading(if widths < -4.0 { f64::NAN } else { 0.3 })];
+        let at = |widths: f64| {
+            vec![reading(0.5 + 0.02 * widths), reading(if widths < -4.0 { f64::NAN } else { 0.3 })]
+        };
         let moved = PLACES.map(|widths| (widths, at(widths))).to_vec();
         let changes = CaseChanges::new(&[false, true], &at(0.0), moved);
         for widths in [-10.0, -4.5, 0.0, 1.0, 7.0] {

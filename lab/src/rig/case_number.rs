@@ -279,7 +279,10 @@ mod tests {
             ("walls.plate.temperature", "walls.plate.temperature.value", 10.0, 520.0),
         ] {
             let (own, value) = of(key, path);
-            assert!((own / error - 1.0).abs() < 1e-12 && (value / moved - 1.0).abs() < 1e-12, "{key}: {own} {value}");
+            assert!(
+                (own / error - 1.0).abs() < 1e-12 && (value / moved - 1.0).abs() < 1e-12,
+                "{key}: {own} {value}"
+            );
         }
         assert_eq!(numbers.len(), 8);
     }

@@ -76,7 +76,8 @@ impl Found {
     }
 
     fn blank(&mut self, range: Range<usize>) {
-        let spaces: String = self.text[range.clone()].chars().map(|c| if c == '\n' { c } else { ' ' }).collect();
+        let spaces: String =
+            self.text[range.clone()].chars().map(|c| if c == '\n' { c } else { ' ' }).collect();
         self.text.replace_range(range, &spaces);
     }
 }
@@ -98,8 +99,12 @@ mod tests {
         assert_eq!(table["walls"][0]["temperature"].as_integer(), Some(300));
         assert!(table["run"]["a"].is_inline_table());
         let all: Vec<(&str, f64)> = errors.iter().map(|(key, error)| (key.as_str(), *error)).collect();
-        let expected =
-            [("gas.temperature", 30.0), ("gas.velocity", 0.1), ("particles.speed", 0.1), ("walls.plate.temperature", 5.0)];
+        let expected = [
+            ("gas.temperature", 30.0),
+            ("gas.velocity", 0.1),
+            ("particles.speed", 0.1),
+            ("walls.plate.temperature", 5.0),
+        ];
         assert_eq!(all, expected);
         assert_eq!(left.find("# K"), text.find("# K"));
         assert_eq!(left.len(), text.len());

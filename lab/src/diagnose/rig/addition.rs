@@ -28,7 +28,10 @@ pub(super) enum Kind {
     },
     /// Another value of a number of the case, by place; the parameter is its distance from the case's
     /// value in standard errors.
-    Case { place: usize, number: CaseNumber },
+    Case {
+        place: usize,
+        number: CaseNumber,
+    },
 }
 
 /// An addition with the values of its parameters.

@@ -134,7 +134,8 @@ pub(super) fn candidates(forward: &dyn Forward, data: &Data) -> Vec<RigAddition>
         wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]))
     };
     let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
-    let numbers = forward.case_numbers().iter().cloned().enumerate().filter(|(place, _)| acts(forward, *place));
+    let numbers =
+        forward.case_numbers().iter().cloned().enumerate().filter(|(place, _)| acts(forward, *place));
     all.extend(numbers.map(|(place, number)| RigAddition::case(place, number)));
     let curves = curve_inputs(forward);
     let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));

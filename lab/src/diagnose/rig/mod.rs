@@ -123,8 +123,11 @@ pub fn diagnose_rig(
     };
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
-    let moves: Vec<(&CaseNumber, f64)> =
-        additions.iter().filter_map(|one| one.case_number()).map(|(_, number, widths)| (number, widths)).collect();
+    let moves: Vec<(&CaseNumber, f64)> = additions
+        .iter()
+        .filter_map(|one| one.case_number())
+        .map(|(_, number, widths)| (number, widths))
+        .collect();
     let extended_case = case.filter(|_| !moves.is_empty()).map(|case| case.extended(&moves, "extended.toml"));
     let found =
         report::RigFindings { study: &study, choice, refuted, held_out, text, extended_case, draws, next };

@@ -204,8 +204,7 @@ impl Data {
             readings.iter().zip(base).map(|(datum, base)| grouped(datum, base, is_share(datum))).collect();
         let (groups, known) = groups(&readings, &grouped, kinds.len());
         let measured = ReadingValues::default();
-        let mut data =
-            Self {
+        let mut data = Self {
             readings,
             kinds,
             prior,
@@ -462,7 +461,8 @@ impl Data {
         let mut one = |(index, datum): (usize, &Datum)| {
             let one = &existing(&predicted[index], datum.value);
             let normal: f64 = StandardNormal.sample(random);
-            let change: f64 = self.case_errors.iter().zip(&errors).map(|(own, error)| own[index] * error).sum();
+            let change: f64 =
+                self.case_errors.iter().zip(&errors).map(|(own, error)| own[index] * error).sum();
             match datum.noise {
                 Noise::Counted(count) => {
                     let p = away_from_edges(changed(true, one.value, change));

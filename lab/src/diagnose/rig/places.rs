@@ -36,7 +36,9 @@ impl RigAddition {
     pub fn places(&self, now: Option<f64>) -> Vec<Vec<f64>> {
         match (&self.kind, self.axes.first()) {
             (Kind::Curve { .. }, _) => curves(self.axes.len()),
-            (Kind::Case { .. }, Some(axis)) => CASE_CHANGES.map(|widths| vec![axis.coordinate(widths)]).to_vec(),
+            (Kind::Case { .. }, Some(axis)) => {
+                CASE_CHANGES.map(|widths| vec![axis.coordinate(widths)]).to_vec()
+            }
             (Kind::Part(Part::LawParameter(_)), Some(axis)) => {
                 let mut all = even(OF_A_NUMBER);
                 let here = now.map(|value| axis.coordinate(value));

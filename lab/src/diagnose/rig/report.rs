@@ -363,7 +363,8 @@ impl RigFindings<'_> {
 /// A wrong number of the case in a few sentences.
 fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
     let CaseNumber { key, value: from, error, unit, instrument, .. } = number;
-    let found = finding.parameters.get("value").map(|one| format!("{} ({} to {})", one.value, one.low, one.high));
+    let found =
+        finding.parameters.get("value").map(|one| format!("{} ({} to {})", one.value, one.low, one.high));
     let others = match finding.indistinguishable_from.as_slice() {
         [] => String::new(),
         others => format!(" These experiments do not exclude {}.", others.join(" or ")),
@@ -402,7 +403,8 @@ fn explain(finding: &Finding) -> String {
 }
 
 /// Why no number of the case was a candidate.
-const NO_CASE: &str = "recorded flights, and walls with a deposit, are not followed anew with another number of the case";
+const NO_CASE: &str =
+    "recorded flights, and walls with a deposit, are not followed anew with another number of the case";
 
 /// The words for a rig.
 const RIG: Words = Words {
@@ -422,7 +424,9 @@ fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> Stri
         diagnosis.findings.iter().cloned().partition(|finding| finding.cause.starts_with("case:"));
     let numbers: Vec<String> = case
         .iter()
-        .map(|finding| format!("{} (probability {:.2})", &finding.cause["case:".len()..], finding.probability))
+        .map(|finding| {
+            format!("{} (probability {:.2})", &finding.cause["case:".len()..], finding.probability)
+        })
         .collect();
     let wrong = match numbers.as_slice() {
         [] => return found(diagnosis, &RIG, nothing),

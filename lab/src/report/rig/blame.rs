@@ -17,7 +17,14 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
         "Probability that the wall law is at fault: {law}; the case: {case}; both: {both}; neither, beyond the errors of readings and \
          case: {neither}."
     ));
-    let header = ["party", "what measures it again", "share of the misfit", "in the case", "its error", "as the readings show it"];
+    let header = [
+        "party",
+        "what measures it again",
+        "share of the misfit",
+        "in the case",
+        "its error",
+        "as the readings show it",
+    ];
     page.table(Table::new("", 2, &header, found.blame.iter().map(row).collect()));
 }
 

@@ -56,7 +56,8 @@ impl Data {
         let eigen = SymmetricEigen::new(information);
         let mixed = |column: usize| -> Vec<f64> {
             let share = eigen.eigenvectors.column(column);
-            let one = |reading: usize| changes.iter().zip(share.iter()).map(|(own, s)| own[reading] * s).sum();
+            let one =
+                |reading: usize| changes.iter().zip(share.iter()).map(|(own, s)| own[reading] * s).sum();
             (0..self.readings.len()).map(one).collect()
         };
         let seen = (0..changes.len()).filter(|column| eigen.eigenvalues[*column] > LEAST_INFORMATION);
@@ -66,7 +67,12 @@ impl Data {
 
     /// What the errors of the case carry of the misfit of predictions, taken as normal. Only these
     /// readings count.
-    pub fn case_fit(&self, readings: &[usize], predicted: &[PredictedReading], scatter: &FittedScatter) -> CaseFit {
+    pub fn case_fit(
+        &self,
+        readings: &[usize],
+        predicted: &[PredictedReading],
+        scatter: &FittedScatter,
+    ) -> CaseFit {
         let count = self.case_changes.len();
         let mut chi_square = 0.0;
         let (mut matrix, mut vector) = (DMatrix::identity(count, count), DVector::zeros(count));
@@ -74,7 +80,8 @@ impl Data {
             let [residual, variance] = self.residual(index, &predicted[index], scatter);
             let p = away_from_edges(predicted[index].value);
             // From log odds to the share itself.
-            let slope = if matches!(self.readings[index].noise, Noise::Counted(_)) { p * (1.0 - p) } else { 1.0 };
+            let slope =
+                if matches!(self.readings[index].noise, Noise::Counted(_)) { p * (1.0 - p) } else { 1.0 };
             let row = DVector::from_iterator(count, self.case_changes.iter().map(|own| slope * own[index]));
             chi_square += residual * residual / variance;
             vector += &row * (residual / variance);
@@ -103,13 +110,15 @@ impl Data {
         let (mut first, mut volume) = (start, 0.0);
         for step in 0..STEPS {
             let slopes = self.slopes(&at, weighted);
-            let matrix = normal_matrix(&self.case_errors, &slopes) + DMatrix::identity(errors.len(), errors.len());
+            let matrix =
+                normal_matrix(&self.case_errors, &slopes) + DMatrix::identity(errors.len(), errors.len());
             let Some(root) = matrix.cholesky() else { break };
             volume = root.l_dirty().diagonal().iter().map(|one| one.ln()).sum();
             if step == 0 {
                 first = start - volume;
             }
-            let pull = |own: &Vec<f64>| slopes.iter().map(|(index, slope, _)| own[*index] * slope).sum::<f64>();
+            let pull =
+                |own: &Vec<f64>| slopes.iter().map(|(index, slope, _)| own[*index] * slope).sum::<f64>();
             let gradient = DVector::from_iterator(errors.len(), self.case_errors.iter().map(pull)) - &errors;
             let change = root.solve(&gradient);
             at.shift(&self.case_errors, change.as_slice());
@@ -147,7 +156,8 @@ fn normal_matrix(changes: &[Vec<f64>], slopes: &[ReadingSlope]) -> DMatrix<f64> 
     let mut matrix = DMatrix::zeros(changes.len(), changes.len());
     for (a, one) in changes.iter().enumerate() {
         for (b, other) in changes.iter().enumerate().take(a + 1) {
-            let sum: f64 = slopes.iter().map(|(index, _, curvature)| one[*index] * curvature * other[*index]).sum();
+            let sum: f64 =
+                slopes.iter().map(|(index, _, curvature)| one[*index] * curvature * other[*index]).sum();
             matrix[(a, b)] = sum;
             matrix[(b, a)] = sum;
         }
