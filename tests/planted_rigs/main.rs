@@ -1,6 +1,6 @@
 //! Rigs with planted effects for `nearwall diagnose --case`, generated without the crate's own laws and flights.
 //!
-//! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with` scores the
+//! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with_planted` scores the
 //!   command on all sets. It takes 10 to 20 minutes and does not reach all its gates yet:
 //!   `docs/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter` checks
@@ -64,7 +64,7 @@ use rayon::prelude::*;
 
 /// The right cause first, silence on nulls, errors near the attainable, intervals and bands that hold.
 #[test]
-#[ignore = "10 to 20 minutes, and not all gates are reached: cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with"]
+#[ignore = "10 to 20 minutes, and not all gates are reached: cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with_planted"]
 fn rigs_with_planted_effects() {
     let seed = random::seed();
     let one = |recipe: &sets::Recipe| {
