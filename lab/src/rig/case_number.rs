@@ -159,8 +159,12 @@ impl CaseNumber {
 
     /// A value moved by so many standard errors [its unit].
     pub fn moved(&self, value: f64, widths: f64) -> f64 {
+        let factor = |widths: f64| (widths * self.error / self.value.abs()).exp();
         match self.shift {
-            Shift::Factor => value * (widths * self.error / self.value.abs()).exp(),
+            // An exponent is the less the wider; a geometric deviation is that of a logarithm.
+            Shift::Factor if self.key.ends_with(".exponent") => value * factor(-widths),
+            Shift::Factor if self.key.ends_with(".geometric_deviation") => value.powf(factor(widths)),
+            Shift::Factor => value * factor(widths),
             Shift::Difference => value + widths * self.error,
         }
     }
@@ -170,22 +174,13 @@ impl CaseNumber {
         let Some(item) = find_mut(document, &self.quantity) else { return };
         match item.as_table_like_mut() {
             None => self.change(item, &|value| self.moved(value, widths)),
-            Some(table) if self.spread => {
-                for key in SPREADS {
-                    // A geometric deviation is that of a logarithm, an exponent is the less the wider.
-                    let moved = |value: f64| match key {
-                        "geometric_deviation" => self.moved(value.ln(), widths).exp(),
-                        "exponent" => self.moved(value, -widths),
-                        _ => self.moved(value, widths),
-                    };
-                    if let Some(item) = table.get_mut(key) {
-                        self.change(item, &moved);
-                    }
-                }
-            }
             Some(table) => {
                 let is_even = table.get("distribution").and_then(Item::as_str) == Some("uniform");
-                let keys: &[&str] = if is_even { &["min", "max"] } else { &MIDDLES };
+                let keys: &[&str] = match (self.spread, is_even) {
+                    (true, _) => &SPREADS,
+                    (false, true) => &["min", "max"],
+                    (false, false) => &MIDDLES,
+                };
                 for key in keys {
                     if let Some(item) = table.get_mut(key) {
                         self.change(item, &|value| self.moved(value, widths));

@@ -174,6 +174,7 @@ impl RigAddition {
                 let [low, high] = self.intervals.first().copied().unwrap_or([self.values()[0]; 2]);
                 let [value, low, high] =
                     [self.values()[0], low, high].map(|widths| rounded(number.moved(number.value, widths)));
+                let [low, high] = [low.min(high), low.max(high)];
                 vec![("value", Estimate { value, low, high, unit: number.unit })]
             }
             _ => Vec::new(),

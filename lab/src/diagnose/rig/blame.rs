@@ -6,10 +6,9 @@ use super::super::constants::LISTED;
 use super::super::part::rounded;
 use super::addition::RigAddition;
 use super::choice::RigChoice;
-use super::noise::FittedScatter;
 use super::prediction_table::predict;
 use super::study::RigStudy;
-use crate::rig::{PredictedReading, PredictionError};
+use crate::rig::{CaseNumber, PredictedReading, PredictionError};
 
 /// Least fall of chi-square of which shares are told [1]: that of one parameter by chance once in a
 /// hundred.
@@ -82,61 +81,34 @@ impl Parties {
     }
 }
 
+/// What a number of the case carries.
+#[derive(Debug, Clone, Copy, Default)]
+struct Carried {
+    /// Its distance from the case's value and half the 95 % interval of that, in its standard errors.
+    widths: [f64; 2],
+    /// Fall of chi-square [1].
+    fall: f64,
+}
+
 /// What the parties of the most probable explanation carry, the largest share first, as many as carry 95 %;
 /// none where nothing more than chance is carried.
 ///
 /// # Errors
 /// Why an impact cannot be decided.
 pub(super) fn blame(study: &RigStudy<'_>, choice: &RigChoice) -> Result<Vec<Blame>, PredictionError> {
-    let additions = choice.explanations.best_additions();
-    let (case, law): (Vec<_>, Vec<_>) =
-        additions.iter().cloned().partition(|addition| addition.case_number().is_some());
-    let weights = vec![1.0; study.data.experiments];
-    let whole = predict(study.forward, additions)?;
-    let scatter = study.data.scatter(&whole, &weights);
-    let readings: Vec<usize> = (0..study.data.readings.len()).collect();
-    let fit = |predicted: &[PredictedReading], scatter: &FittedScatter| {
-        study.data.case_fit(&readings, predicted, scatter)
-    };
-    let mut left = fit(&study.table.base, &scatter).chi_square;
-    let mut carried = |predicted: &[PredictedReading]| {
-        let before = left;
-        left = fit(predicted, &scatter).chi_square;
-        (before - left).max(0.0)
-    };
-    let by_law = carried(&predict(study.forward, &law)?);
     let numbers = study.forward.case_numbers();
-    // By number: its distance from the case's value, the interval of it, and what it carries.
-    let mut moved = vec![[0.0; 4]; numbers.len()];
-    for count in 1..=case.len() {
-        let own = carried(&predict(study.forward, &[&law[..], &case[..count]].concat())?);
-        if let Some((place, _, widths)) = case[count - 1].case_number() {
-            moved[place][0] = widths;
-            moved[place][3] = own;
-        }
-    }
-    let last = fit(&whole, &scatter);
-    for ((one, [error, deviation]), carries) in moved.iter_mut().zip(&last.errors).zip(&last.carried) {
-        one[0] += error;
-        one[3] += carries.max(0.0);
-        [one[1], one[2]] = [-1.0, 1.0].map(|sign| one[0] + sign * NORMAL_95 * deviation);
-    }
-    let total = by_law + moved.iter().map(|one| one[3]).sum::<f64>();
+    let (by_law, by_number) = carried(study, choice.explanations.best_additions())?;
+    let total = by_law + by_number.iter().map(|one| one.fall).sum::<f64>();
     if total < LEAST_FALL {
         return Ok(Vec::new());
     }
-    let of = |(number, [best, low, high, carries]): (&crate::rig::CaseNumber, &[f64; 4])| {
-        let [value, low, high] = [best, low, high].map(|widths| rounded(number.moved(number.value, *widths)));
-        let (unit, from, error) = (number.unit, number.value, rounded(number.error));
-        let (stated, measure) = (number.stated, number.instrument);
-        Blame {
-            party: format!("case:{}", number.key),
-            share: carries / total,
-            number: Some(BlamedNumber { unit, from, error, stated, value, low, high, measure }),
-        }
+    let of = |(number, one): (&CaseNumber, &Carried)| Blame {
+        party: format!("case:{}", number.key),
+        share: one.fall / total,
+        number: Some(blamed(number, one.widths)),
     };
     let law = Blame { party: "wall law".to_owned(), share: by_law / total, number: None };
-    let mut all: Vec<Blame> = numbers.iter().zip(&moved).map(of).chain([law]).collect();
+    let mut all: Vec<Blame> = numbers.iter().zip(&by_number).map(of).chain([law]).collect();
     all.sort_by(|a, b| b.share.total_cmp(&a.share));
     let mut held = 0.0;
     all.retain(|one| {
@@ -145,6 +117,52 @@ pub(super) fn blame(study: &RigStudy<'_>, choice: &RigChoice) -> Result<Vec<Blam
         open
     });
     Ok(all)
+}
+
+/// By how much chi-square falls by the wall law of these additions, then by each number of the case.
+fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<Carried>), PredictionError> {
+    let (case, law): (Vec<_>, Vec<_>) =
+        additions.iter().cloned().partition(|addition| addition.case_number().is_some());
+    let whole = predict(study.forward, additions)?;
+    let scatter = study.data.scatter(&whole, &vec![1.0; study.data.experiments]);
+    let readings: Vec<usize> = (0..study.data.readings.len()).collect();
+    let fit = |predicted: &[PredictedReading]| study.data.case_fit(&readings, predicted, &scatter);
+    let mut left = fit(&study.table.base).chi_square;
+    let mut fall = |predicted: &[PredictedReading]| {
+        let before = left;
+        left = fit(predicted).chi_square;
+        (before - left).max(0.0)
+    };
+    let by_law = fall(&predict(study.forward, &law)?);
+    let mut by_number = vec![Carried::default(); study.forward.case_numbers().len()];
+    for count in 1..=case.len() {
+        let own = fall(&predict(study.forward, &[&law[..], &case[..count]].concat())?);
+        if let Some((place, _, widths)) = case[count - 1].case_number() {
+            by_number[place] = Carried { widths: [widths, 0.0], fall: own };
+        }
+    }
+    // What the errors of the instruments carry comes last.
+    let last = fit(&whole);
+    for ((one, [error, deviation]), fall) in by_number.iter_mut().zip(&last.errors).zip(&last.carried) {
+        one.widths = [one.widths[0] + error, NORMAL_95 * deviation];
+        one.fall += fall.max(0.0);
+    }
+    Ok((by_law, by_number))
+}
+
+/// A number of the case at a distance from its value, with half the interval of that.
+fn blamed(number: &CaseNumber, [widths, half]: [f64; 2]) -> BlamedNumber {
+    let at = |widths: f64| rounded(number.moved(number.value, widths));
+    BlamedNumber {
+        unit: number.unit,
+        from: number.value,
+        error: rounded(number.error),
+        stated: number.stated,
+        value: at(widths),
+        low: at(widths - half).min(at(widths + half)),
+        high: at(widths - half).max(at(widths + half)),
+        measure: number.instrument,
+    }
 }
 
 /// Sentences on whose fault the misfit is, and what tells the parties apart; none without a misfit.
