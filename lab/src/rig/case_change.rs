@@ -40,13 +40,12 @@ impl CaseChanges {
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (at, mut changes): (Vec<f64>, Vec<Vec<f64>>) = all.into_iter().unzip();
         let middle = at.iter().position(|widths| *widths == 0.0).unwrap_or(0);
-        for reading in 0..shares.len() {
-            let outwards = (middle + 1..at.len()).map(|place| (place, place - 1));
-            let inwards = (0..middle).rev().map(|place| (place, place + 1));
-            for (place, before) in outwards.chain(inwards) {
-                if !changes[place][reading].is_finite() {
-                    changes[place][reading] = changes[before][reading];
-                }
+        let outwards = (middle + 1..at.len()).map(|place| (place, place - 1));
+        let inwards = (0..middle).rev().map(|place| (place, place + 1));
+        for (place, before) in outwards.chain(inwards) {
+            let known = changes[before].clone();
+            for (one, known) in changes[place].iter_mut().zip(known).filter(|(one, _)| !one.is_finite()) {
+                *one = known;
             }
         }
         Self { at, changes }

@@ -437,7 +437,7 @@ fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> Stri
         return wrong;
     }
     let law = Diagnosis { findings: law, ..diagnosis.clone() };
-    wrong.replace(", not the wall", "") + " " + &found(&law, &RIG, || String::new())
+    wrong.replace(", not the wall", "") + " " + &found(&law, &RIG, String::new)
 }
 
 /// The verdict: the result in a few sentences.
