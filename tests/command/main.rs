@@ -28,3 +28,4 @@ mod scale;
 mod simulate;
 mod slag_viscosity_study;
 mod wall_maps;
+mod wrong_case;

@@ -5,6 +5,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use rand_distr::{Beta, Distribution, StandardNormal};
 
 /// The random stream of one set.
+#[derive(Clone)]
 pub struct SetRng {
     stream: ChaCha8Rng,
 }

@@ -95,6 +95,7 @@ pub fn lab(system: System, law: Tangential, rng: &mut SetRng) -> Lab {
         errors: [Errors::Stated, Errors::Counts, Errors::Counts, Errors::Absent][rng.below(4)],
         base: world(),
         truth: world(),
+        case_error: None,
     }
 }
 
@@ -252,7 +253,7 @@ fn planted(mut lab: Lab, plant: Plant, own: bool, names: &[&'static str]) -> Pla
     Plan { lab, names: names.to_vec(), parameters, own }
 }
 
-fn constant_law(rng: &mut SetRng) -> Tangential {
+pub fn constant_law(rng: &mut SetRng) -> Tangential {
     Tangential::Constant(rounded(rng.uniform((0.6, 0.9))))
 }
 

@@ -8,6 +8,7 @@ use crate::rig::{Observable, Rig, Track, WALLS};
 use crate::set_rng::SetRng;
 use crate::source::{Knob, Particle, Source};
 use crate::world::World;
+use crate::wrong_case::CaseError;
 
 /// Particles of an experiment in the generator's Monte Carlo.
 pub const PARTICLES: usize = 6000;
@@ -45,6 +46,8 @@ pub struct Lab {
     /// The model file and the truth.
     pub base: World,
     pub truth: World,
+    /// What is wrong with the case file.
+    pub case_error: Option<CaseError>,
 }
 
 /// One reading of an experiment.
@@ -119,8 +122,16 @@ impl Lab {
 
     /// Base and truth of every reading under these settings, from the same particles.
     pub fn expected(&self, settings: &[f64], count: usize, rng: &mut SetRng) -> [Vec<f64>; 2] {
+        let mut same = rng.clone();
         let particles = self.particles(settings, count, rng);
-        [&self.base, &self.truth].map(|world| self.values(&self.tracks(&particles, world)))
+        let base = self.values(&self.tracks(&particles, &self.base));
+        let Some(error) = &self.case_error else {
+            return [base, self.values(&self.tracks(&particles, &self.truth))];
+        };
+        let mut source = self.source_at(settings);
+        error.apply(&mut source);
+        let particles: Vec<Particle> = (0..count).map(|_| source.draw(&mut same)).collect();
+        [base, self.values(&self.tracks(&particles, &self.truth))]
     }
 
     /// Square of the true effect in deviations, if every reading rested on one particle; `None` if one is not defined.

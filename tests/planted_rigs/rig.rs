@@ -26,6 +26,8 @@ pub enum Shape {
     Bounce,
     /// Rebounds hit a lid, then the floor again, until they leave at the rim.
     Channel,
+    /// A gas blows the particles onto the floor; nothing is followed after the first impact.
+    Blown,
 }
 
 /// The rig.
@@ -80,7 +82,7 @@ impl Rig {
 
     /// Whether each particle hits once, so that its chances need no draws.
     pub fn hits_once(&self) -> bool {
-        self.shape == Shape::Shot
+        matches!(self.shape, Shape::Shot | Shape::Blown)
     }
 
     /// Names of the walls that there are.
@@ -104,7 +106,10 @@ impl Rig {
         let mut rng = SetRng::new(particle.seed, "flight");
         let mut track = Track::new(particle.inputs.d);
         if self.hits_once() {
-            let x = Self::first(particle);
+            let x = match self.shape {
+                Shape::Blown => blown(particle, world.contact.density),
+                _ => Self::first(particle),
+            };
             let r = world.truth(&x, [rng.unit(), rng.unit()]);
             track.hits.push(Hit { wall: 0, rebounds: 1.0 - r.stick, e_n: r.e_n, e_t: r.e_t });
             track.captured[0] = r.stick;
@@ -176,11 +181,26 @@ impl Rig {
     pub fn case(&self, source: &Source, model: &str, count: usize, seed: u64) -> String {
         let Source { wall_temperature, gas_speed, gas_temperature, .. } = source;
         let (gravity, time_limit) = (0.0 - self.gravity(), self.time_limit);
+        let (velocity, properties, limit) = match self.shape {
+            Shape::Blown => {
+                let [density, viscosity] = AIR;
+                (
+                    format!("[0, 0, {:e}]", -gas_speed),
+                    format!("density = {density}\nviscosity = {viscosity:e}\nconductivity = 0.026"),
+                    "hit_limit = 1\n",
+                )
+            }
+            _ => (
+                format!("[{gas_speed:e}, 0, 0]"),
+                "density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9".to_owned(),
+                "",
+            ),
+        };
         let mut text = format!(
             "title = \"A rig without drag\"\nmodel = \"{model}\"\n\n[run]\nseed = {seed}\n\
-             time_limit = {time_limit}\ngravity = [0, 0, {gravity:?}]\nrecorded_impacts = 1000000\n\n\
-             [gas]\nfield = \"uniform\"\nvelocity = [{gas_speed:e}, 0, 0]\ntemperature = {gas_temperature}\n\
-             density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9\nheat_capacity = 1000\n\n\
+             time_limit = {time_limit}\ngravity = [0, 0, {gravity:?}]\nrecorded_impacts = 1000000\n{limit}\n\
+             [gas]\nfield = \"uniform\"\nvelocity = {velocity}\ntemperature = {gas_temperature}\n\
+             {properties}\nheat_capacity = 1000\n\n\
              [particles]\ncount = {count}\nposition = {{ shape = \"point\", at = [0, 0, {START}] }}\n\
              direction = [0, 0, -1]\n{}",
             source.toml()
@@ -200,6 +220,49 @@ impl Rig {
         };
         write!(text, "\n[[exits]]\n{exit}").unwrap();
         text
+    }
+}
+
+/// Density and viscosity of the gas that blows, kg/m³ and Pa s.
+const AIR: [f64; 2] = [1.2, 1.8e-5];
+/// Steps of a flight through it.
+const STEPS: usize = 60;
+
+/// The impact of a particle that a gas blows straight onto the floor: Schiller and Naumann's drag,
+/// integrated by Runge and Kutta's method over the time in which it falls without drag, again and again.
+fn blown(particle: &Particle, density: f64) -> Inputs {
+    let Particle { speed, angle, inputs, .. } = *particle;
+    let (d, gas) = (inputs.d, inputs.v_gas);
+    let slope = |[_, along, down]: [f64; 3]| {
+        let slip = along.hypot(gas - down);
+        let reynolds = AIR[0] * slip * d / AIR[1];
+        let rate = 18.0 * AIR[1] / (density * d * d) * (1.0 + 0.15 * reynolds.powf(0.687));
+        [down, -rate * along, rate * (gas - down)]
+    };
+    let step = |at: [f64; 3], time: f64| {
+        let moved = |by: [f64; 3], share: f64| [0, 1, 2].map(|i| at[i] + share * time * by[i]);
+        let a = slope(at);
+        let b = slope(moved(a, 0.5));
+        let c = slope(moved(b, 0.5));
+        let e = slope(moved(c, 1.0));
+        [0, 1, 2].map(|i| at[i] + time / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]))
+    };
+    let goal = START - d / 2.0;
+    let time = goal / gas.max(speed * angle.sin()) / STEPS as f64;
+    let mut at = [0.0, speed * angle.cos(), speed * angle.sin()];
+    loop {
+        let next = step(at, time);
+        if next[0] >= goal {
+            // Newton's method on the last part of a step.
+            let mut last = time * (goal - at[0]) / (next[0] - at[0]);
+            for _ in 0..3 {
+                let there = step(at, last);
+                last += (goal - there[0]) / there[2];
+            }
+            let [_, v_t, v_n] = step(at, last);
+            return Inputs { v_n, v_t, ..inputs };
+        }
+        at = next;
     }
 }
 

@@ -67,6 +67,15 @@ pub fn run(set: &Set, seed: u64) -> Answer {
     answer
 }
 
+/// Writes the set and has it diagnosed.
+pub fn diagnosed(set: &Set, seed: u64) -> (Result<Value, String>, f64) {
+    let folder = Folder::of(&set.name);
+    write(set, &folder.path);
+    let start = Instant::now();
+    let diagnosis = diagnose_files(&folder.path, seed, None);
+    (diagnosis, start.elapsed().as_secs_f64())
+}
+
 /// Has experiments diagnosed.
 pub fn diagnose(lab: &Lab, experiments: &[Experiment], folder: &Path, seed: u64) -> Result<Value, String> {
     write_rig(lab, &lab.csv(experiments, false), folder);

@@ -5,6 +5,7 @@ use crate::lab::{Errors, Experiment, Lab, PARTICLES, Reading};
 use crate::oracle::Oracle;
 use crate::set_rng::SetRng;
 use crate::source::Knob;
+use crate::wrong_case::{self, WrongNumber};
 
 /// Strengths in deviations of all readings together.
 const STRENGTHS: [f64; 3] = [10.0, 5.0, 2.8];
@@ -102,6 +103,7 @@ pub struct Recipe {
     cause: Option<&'static str>,
     index: usize,
     scatter: Option<Scatter>,
+    wrong: Option<WrongNumber>,
 }
 
 impl Recipe {
@@ -119,7 +121,10 @@ impl Recipe {
     fn draw(&self, rng: &mut SetRng) -> Option<Set> {
         let mut plan = match self.cause {
             Some(cause) => effects::plan(cause, rng),
-            None => effects::null(self.index, rng),
+            None => match self.wrong {
+                Some(number) => wrong_case::plan(number, self.index, rng),
+                None => effects::null(self.index, rng),
+            },
         };
         if self.scatter.is_some() {
             plan.lab.errors = [Errors::Stated, Errors::Counts][self.index / 3 % 2];
@@ -187,6 +192,7 @@ pub fn recipes(repeats: usize) -> Vec<Recipe> {
         cause,
         index,
         scatter: None,
+        wrong: None,
     };
     // The first strength differs from cause to cause.
     let of = |(place, cause): (usize, &'static str)| {
@@ -208,9 +214,26 @@ pub fn scattered() -> Vec<Recipe> {
             cause: None,
             index,
             scatter: Some(scatter),
+            wrong: None,
         })
     };
     Scatter::ALL.into_iter().flat_map(of).filter(|recipe| is_wanted(&recipe.name)).collect()
+}
+
+/// Rigs with a right wall law and a wrong number of the case: three times `NEARWALL_RIGS_SETS` (1) of
+/// each number, and of these only `NEARWALL_RIGS_ONLY`.
+pub fn wrong_cases() -> Vec<Recipe> {
+    let count = 3 * std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
+    let of = |number: WrongNumber| {
+        (0..count).map(move |index| Recipe {
+            name: format!("{}#{index}", number.family()),
+            cause: None,
+            index,
+            scatter: None,
+            wrong: Some(number),
+        })
+    };
+    wrong_case::NUMBERS.into_iter().flat_map(of).filter(|recipe| is_wanted(&recipe.name)).collect()
 }
 
 fn is_wanted(name: &str) -> bool {

@@ -33,6 +33,8 @@ pub(super) enum Class {
     Lawless,
     /// A mistake in the numbers, an instrument or a geometry.
     Rival,
+    /// A wrong number of the case of a rig.
+    Case,
     /// Scatter, groups, captures at a constant rate or with a ceiling.
     Noise,
 }
@@ -62,7 +64,7 @@ impl Class {
     fn prior(self) -> f64 {
         match self {
             Self::Law => 1.0,
-            Self::Noise => 0.5,
+            Self::Noise | Self::Case => 0.5,
             Self::Number => 0.3,
             Self::Curve | Self::Rival => 0.2,
             Self::Level | Self::Group | Self::Lawless => 0.06,

@@ -198,7 +198,14 @@ impl<A: Clone> Explanations<A> {
         }
         let physics = self.listed().iter().filter(|one| one.is_physics());
         let mut names = distinct(physics.flat_map(|one| &one.told.causes));
-        names.truncate(ALTERNATIVES);
+        // Numbers of a case take no place from causes at the wall.
+        let mut left = [ALTERNATIVES; 2];
+        names.retain(|name| {
+            let places = &mut left[usize::from(name.starts_with("case:"))];
+            let has_place = *places > 0;
+            *places = places.saturating_sub(1);
+            has_place
+        });
         names
     }
 }

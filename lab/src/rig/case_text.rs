@@ -6,11 +6,13 @@
 //! `particles.speed = 2` makes the speed of all particles 2 m/s, `particles.speed.mean = 2` moves
 //! the mean of a distribution.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use toml_edit::{ArrayOfTables, DocumentMut, Item, TableLike, Value};
 
-use crate::simulate::Case;
+use super::case_number::CaseNumber;
+use crate::simulate::{Case, split_errors};
 use nearwall::input::{Document, InputError};
 
 /// Why a setting cannot be made.
@@ -91,6 +93,10 @@ pub struct CaseText {
     name: String,
     folder: std::path::PathBuf,
     document: DocumentMut,
+    /// As the user wrote it.
+    original: DocumentMut,
+    /// Standard errors that it states, by key.
+    errors: BTreeMap<String, f64>,
     /// Name and text of the model file, or of the model's own tables.
     pub model: Document,
 }
@@ -105,7 +111,9 @@ impl CaseText {
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         // All errors with file, line and key, before anything is changed.
         Case::from_file(path)?;
-        let mut document = parse(&case)?;
+        let original = parse(&case)?;
+        let (text, errors) = split_errors(case.text());
+        let mut document = parse(&Document::new(case.name(), text))?;
         document.remove("sweep");
         let model = match document.get("model") {
             Some(Item::Value(Value::String(name))) => Document::from_file(&folder.join(name.value()))?,
@@ -120,7 +128,7 @@ impl CaseText {
         let mut table = parse(&model)?.as_table().clone();
         table.set_implicit(true);
         document.insert("model", Item::Table(table));
-        Ok(Self { name: case.name().to_owned(), folder, document, model })
+        Ok(Self { name: case.name().to_owned(), folder, document, original, errors, model })
     }
 
     /// The case with the settings of an experiment, which messages call `experiment`.
@@ -163,6 +171,35 @@ impl CaseText {
             InputError::Fault { problem, .. } => SettingError::Case(problem),
             other => other.into(),
         })
+    }
+
+    /// The numbers that may be wrong, with their standard errors.
+    pub fn numbers(&self) -> Vec<CaseNumber> {
+        CaseNumber::all(&self.document, &self.errors)
+    }
+
+    /// As [`CaseText::with`], with a number of the case moved by so many standard errors.
+    ///
+    /// # Errors
+    /// [`SettingError`] for a setting that the case does not have, or with an impossible value.
+    pub(super) fn with_moved(
+        &self,
+        experiment: &str,
+        settings: &[(String, String)],
+        (number, widths): (&CaseNumber, f64),
+    ) -> Result<Case, SettingError> {
+        let mut changed = self.clone();
+        changed.change(experiment, settings)?;
+        number.shift(&mut changed.document, widths);
+        self.read(&changed.document)
+    }
+
+    /// The user's text with numbers moved by so many standard errors, and another model file.
+    pub fn extended(&self, moves: &[(&CaseNumber, f64)], model: &str) -> String {
+        let mut document = self.original.clone();
+        moves.iter().for_each(|(number, widths)| number.shift(&mut document, *widths));
+        document.insert("model", toml_edit::value(model));
+        document.to_string()
     }
 
     /// The text, with the model as a table in it.
@@ -226,6 +263,20 @@ fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), SettingF
     }
     table.insert(last, Item::Value(value));
     Ok(())
+}
+
+/// The item with a dotted key.
+pub(super) fn find_mut<'a>(document: &'a mut DocumentMut, key: &str) -> Option<&'a mut Item> {
+    let (path, last) = key.rsplit_once('.')?;
+    let mut table: &mut dyn TableLike = document.as_table_mut();
+    let mut parts = path.split('.');
+    while let Some(part) = parts.next() {
+        table = match table.get_mut(part)? {
+            Item::ArrayOfTables(tables) => named(tables, part, parts.next()).ok()?,
+            item => item.as_table_like_mut()?,
+        };
+    }
+    table.get_mut(last)
 }
 
 /// The table of a list with a name.

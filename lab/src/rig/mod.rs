@@ -9,6 +9,8 @@
 //! [`sensitivity`] the numbers on which captures depend.
 
 mod captures;
+mod case_change;
+mod case_number;
 mod case_text;
 mod draws;
 mod recorded_flight;
@@ -20,6 +22,8 @@ mod simulated;
 pub mod tally;
 
 pub use captures::{Captures, Flights, run_captures};
+pub use case_change::{FARTHEST, changed};
+pub use case_number::CaseNumber;
 pub use case_text::{CaseText, SettingError, SettingFault};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
 pub use recording::ReplayAccount;
@@ -86,6 +90,17 @@ pub trait Forward: Sync {
     /// the law of the record.
     fn most_causes(&self) -> usize {
         usize::MAX
+    }
+
+    /// The numbers of the case that may be wrong: none where particles cannot be followed anew.
+    fn case_numbers(&self) -> &[CaseNumber] {
+        &[]
+    }
+
+    /// How the base law's readings of an experiment change with such a number moved by so many of its
+    /// standard errors: of a share in log odds. Empty where nothing is known.
+    fn case_change(&self, _experiment: usize, _number: usize, _widths: f64) -> Vec<f64> {
+        Vec::new()
     }
 
     /// The value of an input over the first impacts of an experiment, with weights [input's unit, 1].

@@ -12,6 +12,8 @@
 
 use rayon::prelude::*;
 
+use super::case_change::{CaseChanges, PLACES};
+use super::case_number::CaseNumber;
 use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
 use super::{Forward, ModelChange, PredictionError};
@@ -91,6 +93,8 @@ struct Paths<'a> {
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
     base: Vec<[PredictedReading; 2]>,
+    /// What each number of the case changes, once that was computed.
+    changes: Vec<CaseChanges>,
 }
 
 /// All experiments with the paths of their particles up to the first contact.
@@ -98,6 +102,7 @@ struct Paths<'a> {
 pub struct SimulatedRig<'a> {
     runs: Vec<Paths<'a>>,
     experiments: Vec<Experiment>,
+    numbers: Vec<CaseNumber>,
 }
 
 /// Relative error of a step of a path: far below the Monte Carlo error [1].
@@ -137,7 +142,18 @@ impl<'a> SimulatedRig<'a> {
         paths: impl Fn(&'a RigCase) -> Result<Paths<'a>, PredictionError> + Sync + Send,
     ) -> Result<Self, PredictionError> {
         let runs = rigs.par_iter().map(paths).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { runs, experiments: rigs.iter().map(|rig| rig.experiment.clone()).collect() })
+        let experiments = rigs.iter().map(|rig| rig.experiment.clone()).collect();
+        let followed_anew = rigs.first().filter(|rig| rig.case.deposit.is_none());
+        let numbers = followed_anew.map(|rig| rig.text.numbers()).unwrap_or_default();
+        Ok(Self { runs, experiments, numbers })
+    }
+
+    /// Computes what numbers of the case change, by their places: until then they change nothing.
+    #[must_use]
+    pub fn with_case_numbers(mut self, places: &[usize]) -> Self {
+        let Self { runs, numbers, .. } = &mut self;
+        runs.par_iter_mut().for_each(|run| run.add_changes(numbers, places));
+        self
     }
 }
 
@@ -175,7 +191,7 @@ impl<'a> Paths<'a> {
     /// Follows the base law with many particles.
     fn with_base(mut self, particles: u64) -> Result<Self, PredictionError> {
         if self.rig.case.deposit.is_none() {
-            let known = self.exactly(BASE_PARTICLES * particles);
+            let known = self.exactly(&self.rig.case, BASE_PARTICLES * particles);
             let (own, _) = self.tallied(&self.rig.case.model)?;
             self.base = known.into_iter().zip(own).map(|(known, own)| [known, own]).collect();
         }
@@ -198,7 +214,7 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
-        Ok(Self { rig, walls, blocks, base: Vec::new() })
+        Ok(Self { rig, walls, blocks, base: Vec::new(), changes: Vec::new() })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -213,9 +229,29 @@ impl<'a> Paths<'a> {
         Ok(changed.iter().zip(&self.base).map(|(to, [known, from])| known.moved(from, to)).collect())
     }
 
-    /// What the base law gives with this number of particles on exact paths.
-    fn exactly(&self, particles: u64) -> Vec<PredictedReading> {
-        let RigCase { case, experiment, .. } = self.rig;
+    /// Computes what numbers of the case change.
+    fn add_changes(&mut self, numbers: &[CaseNumber], places: &[usize]) {
+        let RigCase { experiment, text, place, case } = self.rig;
+        let particles = self.blocks.iter().map(Vec::len).sum::<usize>() as u64;
+        let base = self.exactly(case, particles);
+        let shares: Vec<bool> = experiment.readings.iter().map(|one| one.quantity.is_share()).collect();
+        self.changes.resize(numbers.len(), CaseChanges::default());
+        for number in places.iter().copied() {
+            let at = |widths: f64| {
+                // A number that the case refuses is none that was.
+                let moved = (&numbers[number], widths);
+                let mut moved = text.with_moved(place, &experiment.settings, moved).ok()?;
+                (moved.seed, moved.tolerance) = (case.seed, case.tolerance);
+                Some((widths, self.exactly(&moved, particles)))
+            };
+            let moved = PLACES.into_par_iter().filter_map(at).collect();
+            self.changes[number] = CaseChanges::new(&shares, &base, moved);
+        }
+    }
+
+    /// What the base law gives in a case with this number of particles on exact paths.
+    fn exactly(&self, case: &Case, particles: u64) -> Vec<PredictedReading> {
+        let experiment = &self.rig.experiment;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
         for block in even_starts(case, particles) {
             let of = |start: &Start| {
@@ -308,6 +344,14 @@ impl Forward for SimulatedRig<'_> {
         change: &ModelChange<'_>,
     ) -> Result<Vec<PredictedReading>, PredictionError> {
         self.runs[experiment].predict(change)
+    }
+
+    fn case_numbers(&self) -> &[CaseNumber] {
+        &self.numbers
+    }
+
+    fn case_change(&self, experiment: usize, number: usize, widths: f64) -> Vec<f64> {
+        self.runs[experiment].changes.get(number).map(|known| known.at(widths)).unwrap_or_default()
     }
 
     fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {

@@ -11,6 +11,7 @@ use super::gas::Gas;
 use super::geometry::{vector, whole};
 use super::injection::{Injection, SWEEPABLE, model_file};
 use super::linear_profile::LinearProfile;
+use super::stated_error::split_errors;
 use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use nearwall::impact::ImpactError;
 use nearwall::input::{Document, InputError, Section};
@@ -109,7 +110,8 @@ impl Case {
     /// [`InputError`] naming file, line, column and key.
     pub fn from_file(path: &Path) -> Result<Self, InputError> {
         let folder = path.parent().unwrap_or(Path::new(""));
-        Document::from_file(path)?.read(|top| Self::read(top, folder))
+        let document = Document::from_file(path)?;
+        Self::from_toml(document.name(), document.text(), folder)
     }
 
     /// Reads a case from text; `name` stands for the file in messages, model files are looked for in `folder`.
@@ -117,6 +119,8 @@ impl Case {
     /// # Errors
     /// [`InputError`] naming line, column and key.
     pub fn from_toml(name: &str, text: &str, folder: &Path) -> Result<Self, InputError> {
+        // What the instruments state of their errors is no part of a simulation.
+        let (text, _) = split_errors(text);
         Document::new(name, text).read(|top| Self::read(top, folder))
     }
 

@@ -116,6 +116,8 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
     let text = CaseText::from_file(case)?;
     let rigs = RigCase::all(&text, &data)?;
     let forward = SimulatedRig::new(&rigs)?;
+    let numbers: Vec<usize> = (0..forward.case_numbers().len()).collect();
+    let forward = forward.with_case_numbers(&numbers);
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
     write_rig(arguments, &[case], source, &found)?;
@@ -198,6 +200,9 @@ fn write_rig(
         std::iter::once(arguments.data.as_path()).chain(inputs.iter().copied()).collect();
     let mut results =
         vec![("report.html", page.as_str()), ("extended.toml", &found.extended), ("diagnosis.json", &json)];
+    if let Some(case) = &found.extended_case {
+        results.push(("extended_case.toml", case));
+    }
     if !found.next.is_empty() {
         results.push(("next_experiments.csv", &found.next_table));
     }

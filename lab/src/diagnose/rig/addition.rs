@@ -7,6 +7,7 @@ use super::super::extend::{curve_effect, effect, list, with_effects};
 use super::super::part::{FittedPart, Part, rounded};
 use super::super::record::Estimate;
 use super::super::search::SearchAxis;
+use crate::rig::{CaseNumber, FARTHEST};
 use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
 use nearwall::group::Declared;
 use nearwall::impact::INPUTS;
@@ -24,6 +25,12 @@ pub(super) enum Kind {
     Curve {
         on: CurveTarget,
         over: Option<(usize, Vec<f64>)>,
+    },
+    /// Another value of a number of the case, by place; the parameter is its distance from the case's
+    /// value in standard errors.
+    Case {
+        place: usize,
+        number: CaseNumber,
     },
 }
 
@@ -58,6 +65,22 @@ impl RigAddition {
         }
     }
 
+    /// A number of the case that is grossly wrong.
+    pub fn case(place: usize, number: CaseNumber) -> Self {
+        Self {
+            kind: Kind::Case { place, number },
+            axes: vec![SearchAxis::linear(-FARTHEST, FARTHEST)],
+            at: vec![0.5],
+            intervals: Vec::new(),
+        }
+    }
+
+    /// The number of the case that it changes, with its place and its distance in standard errors.
+    pub fn case_number(&self) -> Option<(usize, &CaseNumber, f64)> {
+        let Kind::Case { place, number } = &self.kind else { return None };
+        Some((*place, number, *self.values().first()?))
+    }
+
     /// The same at other coordinates.
     pub fn moved(&self, at: &[f64]) -> Self {
         Self { at: at.to_vec(), ..self.clone() }
@@ -69,13 +92,14 @@ impl RigAddition {
             Kind::Part(part) => part.name(),
             Kind::Curve { over: Some((input, _)), .. } => format!("unknown:{}", input_name(*input)),
             Kind::Curve { on, over: None } => format!("level:{}", on.name()),
+            Kind::Case { number, .. } => format!("case:{}", number.key),
         }
     }
 
     /// Tells it from all other additions: a curve over one input may act on several observables.
     pub fn key(&self) -> String {
         match &self.kind {
-            Kind::Part(_) => self.name(),
+            Kind::Part(_) | Kind::Case { .. } => self.name(),
             Kind::Curve { on, .. } => format!("{} on {}", self.name(), on.name()),
         }
     }
@@ -96,6 +120,7 @@ impl RigAddition {
         match &self.kind {
             Kind::Part(part) => part.inputs().iter().map(|&input| input.to_owned()).collect(),
             Kind::Curve { over, .. } => over.iter().map(|(input, _)| input_name(*input).to_owned()).collect(),
+            Kind::Case { .. } => Vec::new(),
         }
     }
 
@@ -118,6 +143,7 @@ impl RigAddition {
             Kind::Curve { .. } => {
                 self.fitted_curve().map_or(model.clone(), |curve| with_term(model, Term::fitted_curve(curve)))
             }
+            Kind::Case { .. } => model.clone(),
         }
     }
 
@@ -144,6 +170,13 @@ impl RigAddition {
             Kind::Part(Part::Effect(_)) => {
                 self.fitted().map(|part| part.estimates().collect()).unwrap_or_default()
             }
+            Kind::Case { ref number, .. } => {
+                let [low, high] = self.intervals.first().copied().unwrap_or([self.values()[0]; 2]);
+                let [value, low, high] =
+                    [self.values()[0], low, high].map(|widths| rounded(number.moved(number.value, widths)));
+                let [low, high] = [low.min(high), low.max(high)];
+                vec![("value", Estimate { value, low, high, unit: number.unit })]
+            }
             _ => Vec::new(),
         }
     }
@@ -165,6 +198,7 @@ impl RigAddition {
                     added.push(curve_table(&curve, valid));
                 }
             }
+            Kind::Case { .. } => {}
         }
     }
 }

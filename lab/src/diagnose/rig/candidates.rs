@@ -4,7 +4,7 @@
 use super::super::part::{LawParameter, Part};
 use super::addition::RigAddition;
 use super::noise::Data;
-use crate::rig::Forward;
+use crate::rig::{FARTHEST, Forward};
 use nearwall::effect::{CurveTarget, EFFECTS};
 use nearwall::impact::{INPUTS, Impact};
 
@@ -13,6 +13,8 @@ const SEARCH_BEYOND: f64 = 0.5;
 /// Least standard deviation of an input's mean over the experiments, as a share of its range, from
 /// which on it is changed on purpose: for a curve over it.
 const LEAST_INPUT_CHANGE: f64 = 0.05;
+/// Least change of a reading by a number of the case, far off, that makes it a candidate [1].
+const LEAST_CASE_CHANGE: f64 = 1e-3;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
 
@@ -102,6 +104,15 @@ pub(super) fn unchanged_inputs(forward: &dyn Forward) -> Vec<&'static str> {
     inputs.map(|(_, input)| input.name).collect()
 }
 
+/// Whether a number of the case changes readings of the base law.
+fn acts(forward: &dyn Forward, number: usize) -> bool {
+    let changes = |widths: f64| {
+        let of = move |experiment: usize| forward.case_change(experiment, number, widths);
+        (0..forward.experiments().len()).flat_map(of).any(|change| change.abs() > LEAST_CASE_CHANGE)
+    };
+    [-FARTHEST, FARTHEST].into_iter().any(changes)
+}
+
 /// Everything that could be added.
 pub(super) fn candidates(forward: &dyn Forward, data: &Data) -> Vec<RigAddition> {
     let ranges: Vec<(&str, Option<[f64; 2]>)> =
@@ -123,6 +134,9 @@ pub(super) fn candidates(forward: &dyn Forward, data: &Data) -> Vec<RigAddition>
         wider(input).or_else(|| present(forward, input).map(|value| [0.5 * value, 2.0 * value]))
     };
     let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
+    let numbers =
+        forward.case_numbers().iter().cloned().enumerate().filter(|(place, _)| acts(forward, *place));
+    all.extend(numbers.map(|(place, number)| RigAddition::case(place, number)));
     let curves = curve_inputs(forward);
     let measured = |part: &str| data.kinds.iter().any(|kind| kind.contains(part));
     let targets = [

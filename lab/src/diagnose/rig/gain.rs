@@ -13,6 +13,7 @@ use super::addition::{Kind, RigAddition, keys, moved};
 use super::choice::RigChoice;
 use super::noise::FittedScatter;
 use super::posterior::Posterior;
+use super::prediction_table::change_case;
 use super::study::RigStudy;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::model::Model;
@@ -73,10 +74,9 @@ impl HeldOutExperiments {
     /// rebound at all where it is extrapolated.
     pub fn is_worse(&self, study: &RigStudy<'_>) -> bool {
         let weights = vec![1.0; study.data.experiments];
-        let values = study.data.values();
         let [before, after] = [0, 1].map(|which| {
             let predicted: Vec<PredictedReading> = self.predicted.iter().map(|pair| pair[which]).collect();
-            study.data.log_scores(&study.data.prepare(&predicted), values, &weights)
+            study.scores(&study.data.prepare(&predicted), &weights)
         });
         after.iter().zip(before).map(|(after, before)| (after - before).max(-MOST_OF_ONE)).sum::<f64>() < 0.0
     }
@@ -169,7 +169,9 @@ pub(super) fn predict_file(
     };
     let mut all = Vec::new();
     for experiment in 0..study.data.experiments {
-        all.extend(study.forward.predict(experiment, &change)?);
+        let mut predicted = study.forward.predict(experiment, &change)?;
+        change_case(study.forward, experiment, additions, &mut predicted);
+        all.extend(predicted);
     }
     Ok(all)
 }

@@ -8,6 +8,7 @@
 //! `docs/rig-diagnosis.md`.
 
 mod addition;
+mod blame;
 mod candidates;
 mod choice;
 mod gain;
@@ -23,6 +24,7 @@ mod scatter;
 mod significance;
 mod study;
 
+pub use blame::{Blame, BlamedNumber, Parties};
 pub use next::NextExperiment;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
 
@@ -34,7 +36,7 @@ use super::first_reasons;
 use super::reach::Reach;
 use super::record::Options;
 use crate::dataset::RigMeasurements;
-use crate::rig::{CaseText, Forward, PredictionError};
+use crate::rig::{CaseNumber, CaseText, Forward, PredictionError};
 use addition::{RigAddition, extended_text, moved};
 use choice::{Named, RigChoice};
 use gain::HeldOutExperiments;
@@ -121,7 +123,14 @@ pub fn diagnose_rig(
     };
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
-    let found = report::RigFindings { study: &study, choice, refuted, held_out, text, draws, next };
+    let moves: Vec<(&CaseNumber, f64)> = additions
+        .iter()
+        .filter_map(|one| one.case_number())
+        .map(|(_, number, widths)| (number, widths))
+        .collect();
+    let extended_case = case.filter(|_| !moves.is_empty()).map(|case| case.extended(&moves, "extended.toml"));
+    let found =
+        report::RigFindings { study: &study, choice, refuted, held_out, text, extended_case, draws, next };
     Ok(found.record(data, options)?)
 }
 

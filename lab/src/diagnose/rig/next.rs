@@ -14,6 +14,8 @@
 //! The count that decides between the two leading causes is that at which the expected ratio of
 //! their likelihoods is `e³`.
 
+use std::collections::BTreeSet;
+
 use serde::Serialize;
 
 use super::super::explanations::FoundExplanation;
@@ -148,8 +150,11 @@ pub(super) fn next_experiments(
     // A proposal that the case refuses, as a temperature without a gas property, is none.
     let cases: Vec<RigCase> =
         experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
-    let forward = SimulatedRig::with_particles(&cases, PROPOSAL_PARTICLES)?;
     let mut causes = causes(study, choice, posterior);
+    let moved = causes.iter().flat_map(|cause| &cause.states).flatten();
+    let moved: BTreeSet<usize> = moved.filter_map(|one| Some(one.case_number()?.0)).collect();
+    let moved: Vec<usize> = moved.into_iter().collect();
+    let forward = SimulatedRig::with_particles(&cases, PROPOSAL_PARTICLES)?.with_case_numbers(&moved);
     let by_state = predict_states(&forward, &mut causes);
     if causes.is_empty() || cases.is_empty() {
         return Ok(Vec::new());

@@ -10,12 +10,14 @@
 //! numbers, and with a variance of its own the law that is simulated worst would be forgiven most.
 //! Only what a replay cannot know ([`PredictedReading::doubt`]) widens a single prediction.
 
+mod case_error;
+
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Beta, Binomial, Distribution as _, StandardNormal};
 
 use super::scatter::{CountDensity, GRID, Group, GroupedReading, NormalDensity, OverGrid, log_sum};
 use crate::dataset::Experiment;
-use crate::rig::{PredictedReading, away_from_edges};
+use crate::rig::{PredictedReading, away_from_edges, changed};
 
 /// Number of kinds of observables.
 const KINDS: usize = 8;
@@ -64,6 +66,10 @@ pub(super) struct Data {
     known: Vec<Option<KnownError>>,
     /// The measured values.
     measured: ReadingValues,
+    /// Changes of the predictions by errors of the case, by direction; see [`case_error`].
+    case_errors: Vec<Vec<f64>>,
+    /// The same by number of the case.
+    case_changes: Vec<Vec<f64>>,
 }
 
 /// A reading with a stated error or a count in its group.
@@ -198,8 +204,17 @@ impl Data {
             readings.iter().zip(base).map(|(datum, base)| grouped(datum, base, is_share(datum))).collect();
         let (groups, known) = groups(&readings, &grouped, kinds.len());
         let measured = ReadingValues::default();
-        let mut data =
-            Self { readings, kinds, prior, experiments: experiments.len(), groups, known, measured };
+        let mut data = Self {
+            readings,
+            kinds,
+            prior,
+            experiments: experiments.len(),
+            groups,
+            known,
+            measured,
+            case_errors: Vec::new(),
+            case_changes: Vec::new(),
+        };
         data.measured = data.ready(data.readings.iter().map(|datum| datum.value).collect());
         data
     }
@@ -278,8 +293,13 @@ impl Data {
         self.score_weighted(prepared, &self.weighted(values, weights))
     }
 
-    /// The same of weighted values.
+    /// The same of weighted values, averaged over the errors of the case.
     pub fn score_weighted(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> f64 {
+        self.settled(prepared, weighted).score
+    }
+
+    /// The same as if the case had no errors.
+    fn score_as_is(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> f64 {
         let known = weighted.groups.iter().filter(|one| !one.readings.is_empty());
         let known: f64 =
             known.map(|one| one.group.log_mean(&one.likelihood(prepared, weighted.values))).sum();
@@ -313,9 +333,10 @@ impl Data {
     ) -> Vec<f64> {
         let mut scores = vec![0.0; self.experiments];
         let all = self.weighted(values, weights);
+        let prepared = &self.settled(prepared, &all).prepared;
         let told = all.groups.iter().map(|one| one.group.probabilities(&one.likelihood(prepared, values)));
         let told: Vec<OverGrid> = told.map(|one| one.map(f64::ln)).collect();
-        let unstated = self.unstated(prepared, values, weights);
+        let unstated = self.unstated_of(prepared, &all);
         for (experiment, score) in scores.iter_mut().enumerate() {
             let mut only = vec![0.0; self.experiments];
             only[experiment] = 1.0;
@@ -345,14 +366,16 @@ impl Data {
 
     /// The scatter that is left about predictions.
     pub fn scatter(&self, predicted: &[PredictedReading], weights: &[f64]) -> FittedScatter {
-        let (prepared, values) = (self.prepare(predicted), self.values());
+        let values = self.values();
+        let weighted = self.weighted(values, weights);
+        let prepared = self.settled(&self.prepare(predicted), &weighted).prepared;
         let mean = |one: &WeightedGroup<'_>| {
             let probabilities = one.group.probabilities(&one.likelihood(&prepared, values));
             probabilities.iter().zip(&one.group.squares).map(|(p, square)| p * square).sum()
         };
         FittedScatter {
-            unstated: self.unstated(&prepared, values, weights),
-            between: self.weighted(values, weights).groups.iter().map(mean).collect(),
+            unstated: self.unstated_of(&prepared, &weighted),
+            between: weighted.groups.iter().map(mean).collect(),
         }
     }
 
@@ -377,12 +400,12 @@ impl Data {
     }
 
     /// Fitted scatter of each kind without errors and counts [1].
-    fn unstated(&self, prepared: &PreparedReadings, values: &ReadingValues, weights: &[f64]) -> Vec<f64> {
+    fn unstated_of(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.kinds.len()];
-        for (index, _) in self.inside(weights) {
-            if let PreparedReading::Shared { kind, mean, weight } = prepared.rows[index] {
+        for (index, _) in &weighted.shared {
+            if let PreparedReading::Shared { kind, mean, weight } = prepared.rows[*index] {
                 sums[kind].0 += 1.0;
-                sums[kind].1 += (values.value[index] - mean).powi(2) * weight;
+                sums[kind].1 += (weighted.values.value[*index] - mean).powi(2) * weight;
             }
         }
         let scatter = |((count, sum), prior): ((f64, f64), &f64)| ((sum + prior) / (count + 1.0)).sqrt();
@@ -407,35 +430,42 @@ impl Data {
         variance + one.doubt
     }
 
-    /// Chi-square of the readings with a known error, as stated, and their number.
+    /// Chi-square of the readings with a known error, as they and the case state it, and their number.
     pub fn chi_square(&self, predicted: &[PredictedReading], weights: &[f64]) -> (f64, usize) {
         let is_known = |index: &usize| !matches!(self.readings[*index].noise, Noise::Shared { .. });
-        let known = self.inside(weights).map(|(index, _)| index).filter(is_known);
-        let term = |index: usize| {
-            let value = self.readings[index].value;
-            let one = &existing(&predicted[index], value);
-            let centre = match self.readings[index].noise {
-                Noise::Counted(_) => away_from_edges(one.value),
-                _ => one.value,
-            };
-            (value - centre).powi(2) / self.variance(index, one, &FittedScatter::default())
-        };
-        known.fold((0.0, 0), |(sum, count), index| (sum + term(index), count + 1))
+        let known: Vec<usize> = self.inside(weights).map(|(index, _)| index).filter(is_known).collect();
+        let fit = self.case_fit(&known, predicted, &FittedScatter::default());
+        (fit.chi_square - fit.carried.iter().sum::<f64>(), known.len())
     }
 
-    /// Values as predictions would give them, with a new error and a new scatter each.
+    /// A predicted value that a reading can have, and its variance beside the reading's value.
+    fn residual(&self, index: usize, one: &PredictedReading, scatter: &FittedScatter) -> [f64; 2] {
+        let value = self.readings[index].value;
+        let one = &existing(one, value);
+        let centre = match self.readings[index].noise {
+            Noise::Counted(_) => away_from_edges(one.value),
+            _ => one.value,
+        };
+        [value - centre, self.variance(index, one, scatter)]
+    }
+
+    /// Values as predictions would give them, with a new error and a new scatter each, and with new
+    /// errors of the case.
     pub fn draw(
         &self,
         predicted: &[PredictedReading],
         scatter: &FittedScatter,
         random: &mut ChaCha8Rng,
     ) -> ReadingValues {
+        let errors: Vec<f64> = self.case_errors.iter().map(|_| StandardNormal.sample(random)).collect();
         let mut one = |(index, datum): (usize, &Datum)| {
             let one = &existing(&predicted[index], datum.value);
             let normal: f64 = StandardNormal.sample(random);
+            let change: f64 =
+                self.case_errors.iter().zip(&errors).map(|(own, error)| own[index] * error).sum();
             match datum.noise {
                 Noise::Counted(count) => {
-                    let p = away_from_edges(one.value);
+                    let p = away_from_edges(changed(true, one.value, change));
                     // Of a beta distribution with the variance beyond that of the count.
                     let binomial = p * (1.0 - p) / count;
                     let beyond = (self.variance(index, one, scatter) - binomial) / (p * (1.0 - p));
@@ -444,7 +474,7 @@ impl Data {
                     let drawn = Binomial::new(count.round() as u64, run).map(|law| law.sample(random));
                     drawn.map_or(p, |drawn| drawn as f64 / count.round())
                 }
-                _ => one.value + self.variance(index, one, scatter).sqrt() * normal,
+                _ => one.value + change + self.variance(index, one, scatter).sqrt() * normal,
             }
         };
         self.ready(self.readings.iter().enumerate().map(&mut one).collect())

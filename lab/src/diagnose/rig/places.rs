@@ -17,6 +17,9 @@ const BASES: [usize; 6] = [2, 3, 5, 7, 11, 13];
 /// range: small ones too, where many readings show them.
 const CURVE_SIZES: [f64; 4] = [0.03, 0.1, 0.3, 0.9];
 const NUMBER_CHANGES: [f64; 4] = [0.01, 0.025, 0.06, 0.15];
+/// Distances of a number of the case from its value, in standard errors.
+const CASE_CHANGES: [f64; 16] =
+    [-10.0, -8.0, -6.5, -5.0, -4.0, -3.0, -2.0, -1.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.5, 8.0, 10.0];
 /// Shapes of a curve over three knots.
 const SHAPES: [[f64; 3]; 7] = [
     [1.0, 1.0, 1.0],
@@ -33,6 +36,9 @@ impl RigAddition {
     pub fn places(&self, now: Option<f64>) -> Vec<Vec<f64>> {
         match (&self.kind, self.axes.first()) {
             (Kind::Curve { .. }, _) => curves(self.axes.len()),
+            (Kind::Case { .. }, Some(axis)) => {
+                CASE_CHANGES.map(|widths| vec![axis.coordinate(widths)]).to_vec()
+            }
             (Kind::Part(Part::LawParameter(_)), Some(axis)) => {
                 let mut all = even(OF_A_NUMBER);
                 let here = now.map(|value| axis.coordinate(value));

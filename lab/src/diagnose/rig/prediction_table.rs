@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::addition::{RigAddition, apply_all};
 use super::candidates::candidates;
 use super::noise::{Data, PreparedReadings, WeightedValues};
-use crate::rig::{Forward, PredictedReading, PredictionError};
+use crate::rig::{Forward, PredictedReading, PredictionError, changed};
 
 /// A candidate at one place.
 #[derive(Debug)]
@@ -45,9 +45,31 @@ pub(super) fn predict(
     forward: &dyn Forward,
     additions: &[RigAddition],
 ) -> Result<Vec<PredictedReading>, PredictionError> {
-    let one = |experiment: usize| forward.predict(experiment, &|model| apply_all(additions, model));
+    let one = |experiment: usize| -> Result<Vec<PredictedReading>, PredictionError> {
+        let mut predicted = forward.predict(experiment, &|model| apply_all(additions, model))?;
+        change_case(forward, experiment, additions, &mut predicted);
+        Ok(predicted)
+    };
     let all = (0..forward.experiments().len()).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
     Ok(all.into_iter().flatten().collect())
+}
+
+/// Adds what numbers of the case change about the readings of an experiment under the base law.
+pub(super) fn change_case(
+    forward: &dyn Forward,
+    experiment: usize,
+    additions: &[RigAddition],
+    predicted: &mut [PredictedReading],
+) {
+    let readings = &forward.experiments()[experiment].readings;
+    for (place, _, widths) in additions.iter().filter_map(RigAddition::case_number) {
+        let changes = forward.case_change(experiment, place, widths);
+        for ((one, reading), change) in predicted.iter_mut().zip(readings).zip(changes) {
+            if one.value.is_finite() {
+                one.value = changed(reading.quantity.is_share(), one.value, change);
+            }
+        }
+    }
 }
 
 impl PredictionTable {

@@ -8,11 +8,12 @@ use super::super::finding::sigma;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, Options, Rows,
+    Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined, Options, Rows,
 };
 use super::super::sentences::{Words, fit_sentence, found, nothing_found};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
+use super::blame::{self, Blame, Parties};
 use super::candidates::range;
 use super::choice::{Named, RigChoice};
 use super::gain::{HeldOutExperiments, predict_file};
@@ -21,7 +22,7 @@ use super::noise::{FittedScatter, Noise};
 use super::prediction_table::predict;
 use super::study::RigStudy;
 use crate::dataset::RigMeasurements;
-use crate::rig::{PredictedReading, PredictionError, SettingError};
+use crate::rig::{CaseNumber, PredictedReading, PredictionError, SettingError};
 use nearwall::effect::EFFECTS;
 use nearwall::model::Model;
 
@@ -38,6 +39,10 @@ pub struct RigDiagnosis {
     pub readings: Vec<RigRow>,
     /// Errors by kind of observable, on the readings that were fitted.
     pub errors: Vec<KindErrors>,
+    /// Whose fault the misfit is.
+    pub parties: Parties,
+    /// What they carry of it, the largest share first.
+    pub blame: Vec<Blame>,
     /// Experiments worth making, the most telling first.
     pub next: Vec<NextExperiment>,
     /// The same as a table to be filled in.
@@ -48,6 +53,9 @@ pub struct RigDiagnosis {
     /// Text of the extended model.
     #[serde(skip)]
     pub extended: String,
+    /// Text of the case with the numbers that were found wrong and the extended model; `None` without any.
+    #[serde(skip)]
+    pub extended_case: Option<String>,
     /// Texts of model files with parameters drawn from the fit.
     #[serde(skip)]
     pub draws: Vec<String>,
@@ -97,6 +105,7 @@ pub(super) struct RigFindings<'a> {
     pub refuted: Vec<String>,
     pub held_out: Option<HeldOutExperiments>,
     pub text: String,
+    pub extended_case: Option<String>,
     pub draws: Vec<String>,
     pub next: Vec<NextExperiment>,
 }
@@ -154,8 +163,12 @@ impl RigFindings<'_> {
             extended_model: "extended.toml",
             ..Diagnosis::default()
         };
+        if study.forward.case_numbers().is_empty() {
+            diagnosis.not_examined.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
+        }
         let counts = [study.data.experiments, study.data.readings.len()];
-        diagnosis.verdict = verdict(&diagnosis, counts);
+        let (parties, blame) = (Parties::of(choice), blame::blame(study, choice)?);
+        diagnosis.verdict = verdict(&diagnosis, counts, (&parties, &blame));
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
         }
@@ -164,10 +177,13 @@ impl RigFindings<'_> {
             diagnosis,
             readings: self.rows(base, &extended, &scatter),
             errors: self.errors(base, &extended),
+            parties,
+            blame,
             next_table: table(&self.next),
             notes: [file.notes.clone(), study.data.scatter_notes(&scatter)].concat(),
             next: self.next,
             extended: self.text,
+            extended_case: self.extended_case,
             draws: self.draws,
         })
     }
@@ -274,6 +290,9 @@ impl RigFindings<'_> {
             cause,
         };
         finding.explanation = explain(&finding);
+        if let Some((_, number, _)) = addition.case_number() {
+            finding.explanation = wrong_number(&finding, number);
+        }
         Ok(finding)
     }
 
@@ -341,6 +360,23 @@ impl RigFindings<'_> {
     }
 }
 
+/// A wrong number of the case in a few sentences.
+fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
+    let CaseNumber { key, value: from, error, unit, instrument, .. } = number;
+    let found =
+        finding.parameters.get("value").map(|one| format!("{} ({} to {})", one.value, one.low, one.high));
+    let others = match finding.indistinguishable_from.as_slice() {
+        [] => String::new(),
+        others => format!(" These experiments do not exclude {}.", others.join(" or ")),
+    };
+    format!(
+        "The wall law is not needed for this: the readings fit {key} = {} {unit} instead of {from}, which has an error of \
+         {}. Where experiments set it, theirs is off in the same way. What tells it: {instrument}.{others}",
+        found.unwrap_or_default(),
+        rounded(*error)
+    )
+}
+
 /// A finding in a few sentences.
 fn explain(finding: &Finding) -> String {
     let known = EFFECTS.iter().find(|effect| effect.id == finding.cause);
@@ -366,6 +402,10 @@ fn explain(finding: &Finding) -> String {
     )
 }
 
+/// Why no number of the case was a candidate.
+const NO_CASE: &str =
+    "recorded flights, and walls with a deposit, are not followed anew with another number of the case";
+
 /// The words for a rig.
 const RIG: Words = Words {
     subject: "wall law",
@@ -375,11 +415,42 @@ const RIG: Words = Words {
               check the gas, the particles' size and speed, and what counts as captured.",
 };
 
+/// The words where nothing is named.
+const NOTHING: Words = Words { subject: "simulation", ..RIG };
+
+/// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says.
+fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> String {
+    let (case, law): (Vec<Finding>, Vec<Finding>) =
+        diagnosis.findings.iter().cloned().partition(|finding| finding.cause.starts_with("case:"));
+    let numbers: Vec<String> = case
+        .iter()
+        .map(|finding| {
+            format!("{} (probability {:.2})", &finding.cause["case:".len()..], finding.probability)
+        })
+        .collect();
+    let wrong = match numbers.as_slice() {
+        [] => return found(diagnosis, &RIG, nothing),
+        [one] => format!("The case is at fault, not the wall: {one} is wrong by more than its error."),
+        several => format!("The case is at fault, not the wall: {} are wrong.", several.join(" and ")),
+    };
+    if law.is_empty() && diagnosis.calibration.is_empty() {
+        return wrong;
+    }
+    let law = Diagnosis { findings: law, ..diagnosis.clone() };
+    wrong.replace(", not the wall", "") + " " + &found(&law, &RIG, String::new)
+}
+
 /// The verdict: the result in a few sentences.
-fn verdict(diagnosis: &Diagnosis, [experiments, readings]: [usize; 2]) -> String {
+fn verdict(
+    diagnosis: &Diagnosis,
+    [experiments, readings]: [usize; 2],
+    (parties, blame): (&Parties, &[Blame]),
+) -> String {
     let seen = format!("{experiments} experiments with {readings} readings");
     let mut text =
-        fit_sentence(&diagnosis.fit) + &found(diagnosis, &RIG, || nothing_found(diagnosis, &RIG, &seen));
+        fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, || nothing_found(diagnosis, &NOTHING, &seen));
+    let named: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
+    text += &blame::sentences(parties, blame, &named);
     let left = &diagnosis.fit.extended;
     let extends = !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty());
     if let (Some(chi_square), Some(freedom), Some(p)) =

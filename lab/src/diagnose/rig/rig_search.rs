@@ -189,5 +189,6 @@ fn class(addition: &RigAddition) -> Class {
         Kind::Part(Part::LawParameter(_)) => Class::Number,
         Kind::Curve { over: None, .. } => Class::Level,
         Kind::Curve { .. } => Class::Lawless,
+        Kind::Case { .. } => Class::Case,
     }
 }

@@ -7,6 +7,9 @@ use super::noise::{Data, PreparedReadings};
 use super::prediction_table::{PredictionTable, predict};
 use crate::rig::{Forward, PredictedReading, PredictionError};
 
+/// Distance of a number of the case over which its effect on the readings is taken as linear, in its
+/// standard errors.
+const LINEAR: f64 = 3.0;
 /// First size of the simplex of a fit, and iterations a parameter.
 const FIT_SIMPLEX: f64 = 0.04;
 const FIT_ITERATIONS: u64 = 25;
@@ -34,7 +37,15 @@ impl<'a> RigStudy<'a> {
         progress: &'a (dyn Fn(&str) + Sync),
     ) -> Result<Self, PredictionError> {
         let base = predict(forward, &[])?;
-        let data = Data::new(forward.experiments(), &base);
+        let mut data = Data::new(forward.experiments(), &base);
+        let prepared = data.prepare(&base);
+        let mut moved = Vec::new();
+        for (place, number) in forward.case_numbers().iter().enumerate() {
+            let one = RigAddition::case(place, number.clone());
+            let at = |widths: f64| predict(forward, &[one.moved(&[one.axes[0].coordinate(widths)])]);
+            moved.push([data.prepare(&at(-LINEAR)?), data.prepare(&at(LINEAR)?)]);
+        }
+        data.set_case_errors(&prepared, &moved, LINEAR);
         let table = PredictionTable::new(forward, &data, base, progress);
         Ok(Self { forward, data, seed, progress, unchanged: unchanged_inputs(forward), table })
     }

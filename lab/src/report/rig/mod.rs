@@ -1,5 +1,6 @@
 //! The page of a diagnosis of a rig.
 
+mod blame;
 mod cause;
 mod fit;
 mod gain;
@@ -59,6 +60,7 @@ pub fn page(found: &RigDiagnosis, from: &RigPage<'_>) -> Result<String, askama::
     add_notes(&mut page, &found.notes);
     fit::add(&mut page, found);
     rivals::add_undecided(&mut page, diagnosis);
+    blame::add(&mut page, found);
     page.heading("Measured against predicted");
     let in_case: &dyn Fn(&str) -> Option<f64> = match from.source {
         RigSource::Case { number, .. } => number,
@@ -122,7 +124,7 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
         ),
     };
     page.note(format!(
-        "The base model {does}; a candidate changes its wall law. Candidates are every effect of the library \
+        "The base model {does}; a candidate changes its wall law, or with --case a number of the case. Candidates are every effect of the library \
          whose inputs vary over the impacts, the numbers of the base model's own laws, and free curves over the inputs whose mean \
          changes from experiment to experiment. Explanations are compared by their evidence, which counts parameters and prior \
          probabilities, beside a scatter between runs that all of them share; a cause is named from a probability of 0.8 on, \
