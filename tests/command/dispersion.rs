@@ -48,7 +48,7 @@ fn pipe(count: u32, diameter: f64, time: f64, more: &str) -> Vec<Trajectory> {
          [gas]\nfield = \"duct\"\ndirection = [0, 0, 1]\ndiameter = {}\nspeed = 5\nflow = \"turbulent\"\n\
          friction_velocity = {FRICTION_VELOCITY}\ntemperature = 300\n{AIR}\n{more}\n[gas.turbulence]\n\
          [particles]\ncount = {count}\n\
-         position = {{ shape = \"disc\", center = [0, 0, 0], normal = [0, 0, 1], outer_radius = {} }}\n\
+         position = {{ shape = \"disc\", center = [0, 0, 0], normal = [0, 0, 1], radius = {} }}\n\
          direction = [0, 0, 1]\nspeed = 0\nrelative_to_gas = true\ndiameter = {diameter}\ntemperature = 300\n\
          density = 1000\n[[walls]]\nname = \"pipe\"\nshape = \"pipe\"\nradius = {RADIUS}\nzone = [-10, 1e4]\n\
          temperature = 300\n",
@@ -172,7 +172,7 @@ fn a_horizontal_duct_has_a_floor_walls_and_a_ceiling() {
         "{MODEL}[run]\ntime_limit = 2\n[gas]\nfield = \"duct\"\ndirection = [1, 0, 0]\nup = [0, 0, 1]\nheight = 0.15\n\
          width = 0.15\nspeed = 5\nflow = \"turbulent\"\ntemperature = 300\n{AIR}\n[gas.turbulence]\n\
          [particles]\ncount = 1000\nposition = {{ shape = \"disc\", center = [0, 0, 0], normal = [1, 0, 0], \
-         outer_radius = 0.074 }}\ndirection = [1, 0, 0]\nspeed = 0\nrelative_to_gas = true\ndiameter = 40e-6\n\
+         radius = 0.074 }}\ndirection = [1, 0, 0]\nspeed = 0\nrelative_to_gas = true\ndiameter = 40e-6\n\
          temperature = 300\ndensity = 1000\n{}{}{}{}",
         plane("floor", "[0, 0, -0.075]", "[0, 0, 1]"),
         plane("ceiling", "[0, 0, 0.075]", "[0, 0, -1]"),

@@ -350,6 +350,37 @@ def key_of_values(*values: float) -> int:
     return key.value
 
 
+class Walk:
+    """The walk of the gas's fluctuating velocity along the path of a particle; keywords are the fields of `nw_walk`."""
+
+    def __init__(self, **fields) -> None:
+        self.fields = nw_walk()
+        _check(_library.nw_walk_init(byref(self.fields)))
+        self._set(fields)
+
+    def _set(self, fields) -> None:
+        for name, value in fields.items():
+            kind = dict(nw_walk._fields_).get(name)
+            if kind is None:
+                raise TypeError(f"a walk has no {name}")
+            setattr(self.fields, name, kind(*value) if hasattr(value, "__len__") else value)
+
+    def advance(self, **fields) -> tuple[float, ...]:
+        """Takes the walk on by the step that has brought the particle here; returns the fluctuation of the gas [m/s]."""
+        self._set(fields)
+        _check(_library.nw_walk_advance(byref(self.fields)))
+        return tuple(self.fields.velocity)
+
+
+def thermophoresis(*, temperature: float, density: float, viscosity: float, conductivity: float, mean_free_path: float,
+                   diameter: float, particle_conductivity: float) -> float:
+    """The thermophoretic force on a sphere over the gradient of the gas's temperature [N m/K]; all in SI units."""
+    force = c_double()
+    _check(_library.nw_thermophoresis(temperature, density, viscosity, conductivity, mean_free_path, diameter,
+                                      particle_conductivity, byref(force)))
+    return force.value
+
+
 class Model:
     """A model file that was read: what happens when its particles hit its walls.
 
