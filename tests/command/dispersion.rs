@@ -160,6 +160,33 @@ fn brownian_motion_reaches_a_wall_as_diffusion_does() {
     assert!((reached - exact).abs() < 4.0 * (exact * (1.0 - exact) / count).sqrt(), "{reached}");
 }
 
+/// A gas of one temperature pushes nothing by thermophoresis, so that the path is the one that Dormand–Prince finds,
+/// within 1 %: particles that are thrown onto a wall in a jet, slow and fast against the gas.
+#[test]
+fn without_a_push_the_path_is_that_of_the_mean_flow() {
+    for diameter in [1e-5, 3e-5, 2e-4] {
+        let hit = |more: &str| {
+            let text = format!(
+                "{MODEL}[run]\ntime_limit = 10\n[gas]\nfield = \"stagnation-jet\"\nspeed = 2\nheight = 0.03\n\
+                 temperature = 300\n{AIR}\n{more}\n[particles]\ncount = 1\n\
+                 position = {{ shape = \"point\", at = [0.001, 0, 0.05] }}\ndirection = [0.1, 0, -1]\nspeed = 5\n\
+                 diameter = {diameter}\ntemperature = 300\ndensity = 2000\nconductivity = 1\n\
+                 [[walls]]\nname = \"floor\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n\
+                 temperature = 300\n"
+            );
+            trajectories(&text)[0].hits[0]
+        };
+        let (exact, ours) = (hit(""), hit("pressure = 1e9\nthermophoresis = true"));
+        let pairs = [
+            [exact.time, ours.time],
+            [exact.impact.normal_speed, ours.impact.normal_speed],
+            [exact.position.x, ours.position.x],
+        ];
+        println!("{diameter} m: {pairs:?}");
+        assert!(pairs.iter().all(|[exact, ours]| (ours / exact - 1.0).abs() < 0.01), "{diameter}: {pairs:?}");
+    }
+}
+
 /// A horizontal square duct with gravity down: the floor catches most, the ceiling least.
 #[test]
 fn a_horizontal_duct_has_a_floor_walls_and_a_ceiling() {

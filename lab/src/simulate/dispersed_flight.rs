@@ -7,11 +7,11 @@
 //! `v = d(t) - s/b + c exp(-b t)`, `x = x_0 + d_0 t + s t²/2 - s t/b + c (1 - exp(-b t))/b`, `s = (d_1 - d_0)/dt`,
 //! `c = v_0 - d_0 + s/b`.
 //!
-//! `d_1` is taken where a constant drive would lead (Heun). A step is halved while the drive changes by more than a
-//! tenth and displaces the particle by more than a twentieth of its diameter, and is at most a fifth of the
-//! Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement; whether it touched
-//! a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number of the particle
-//! and its step alone.
+//! `d_1` is taken where a constant drive would lead (Heun). A step is halved while the response changes by more than a
+//! tenth, or the drive does and displaces the particle by more than a twentieth of its diameter; it is at most a fifth
+//! of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement; whether it
+//! touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number of the
+//! particle and its step alone.
 
 use nalgebra::Vector3;
 
@@ -33,8 +33,8 @@ use nearwall::transport::thermophoresis::{self, ThermalGas};
 const STEP_LIMIT: usize = 20_000_000;
 /// Shortest flight in steps, so that no short piece of a field is skipped.
 const FEWEST_STEPS: f64 = 200.0;
-/// Largest change of the drive in a step, over the drive [1].
-const DRIVE_CHANGE: f64 = 0.1;
+/// Largest change of drive and response in a step, over their size [1].
+const LARGEST_CHANGE: f64 = 0.1;
 /// Displacement by a change of the drive that need not be looked at, over the diameter [1].
 const DISPLACEMENT: f64 = 0.05;
 /// Halvings of a step.
@@ -88,8 +88,8 @@ struct Place {
     gas: GasState,
     turbulence: Option<GasTurbulence>,
     rates: Rates,
-    /// Velocity towards which the particle tends [m/s].
-    drive: Vector3<f64>,
+    /// Acceleration of weight and thermophoresis [m/s²].
+    pushed: Vector3<f64>,
 }
 
 /// A path under a drive that changes linearly.
@@ -171,8 +171,7 @@ impl Dispersed<'_> {
         }
         let rates = motion.rates(here, &gas);
         let pushed = rates.weight + self.thermophoresis(here, &gas);
-        let drive = gas.velocity + pushed / rates.response;
-        Place { gas, turbulence, rates, drive }
+        Place { gas, turbulence, rates, pushed }
     }
 
     /// Acceleration by thermophoresis [m/s²].
@@ -193,9 +192,10 @@ impl Dispersed<'_> {
         let lasting = place.turbulence.map_or(f64::INFINITY, |turbulence| turbulence.longest_step());
         let body = &self.motion.body;
         let rates = &place.rates;
+        let begin = place.gas.velocity + place.pushed / rates.response;
         let mut path = Path {
             start: *here,
-            drive: [place.drive, Vector3::zeros()],
+            drive: [begin, Vector3::zeros()],
             response: rates.response,
             heat: [rates.heating, rates.exchange, rates.conversion],
             brownian: [Vector3::zeros(); 2],
@@ -203,15 +203,20 @@ impl Dispersed<'_> {
         };
         for _ in 0..HALVINGS {
             let end = self.place(&path.at(path.duration), walk);
-            let change = end.drive - place.drive;
-            let allowed = DRIVE_CHANGE * end.drive.norm().max(place.drive.norm());
+            let drive = end.gas.velocity + end.pushed / rates.response;
+            let change = drive - begin;
             let moved = 0.5 * change.norm() * path.duration;
-            if change.norm() <= allowed || moved <= DISPLACEMENT * body.diameter {
-                path.drive[1] = change / path.duration;
-                path.response = 0.5 * (rates.response + end.rates.response);
+            let is_even = change.norm() <= LARGEST_CHANGE * drive.norm().max(begin.norm());
+            path.drive[1] = change / path.duration;
+            // The slip of the first guess would be that of a particle that has not followed the gas.
+            let response = self.motion.rates(&path.at(path.duration), &end.gas).response;
+            let keeps_response = (response - rates.response).abs() <= LARGEST_CHANGE * rates.response;
+            if keeps_response && (is_even || moved <= DISPLACEMENT * body.diameter) {
+                path.response = 0.5 * (rates.response + response);
                 return path;
             }
             path.duration *= 0.5;
+            path.drive[1] = Vector3::zeros();
         }
         path
     }
