@@ -7,6 +7,9 @@ use crate::rng::ImpactRng;
 use crate::transport::thermophoresis::{ThermalGas, force_over_gradient};
 use crate::transport::{Core, GasTurbulence, WallLayer};
 
+/// Number of directions of space.
+pub const NW_DIRECTIONS: usize = 3;
+
 /// The walk of the gas's fluctuating velocity along the path of a particle, and the gas at the particle's place.
 /// Fill it with `nw_walk_init`, then set what there is.
 #[repr(C)]
@@ -33,20 +36,20 @@ pub struct nw_walk {
     /// Distance from the wall [m], not negative.
     pub wall_distance: f64,
     /// Direction away from the wall, of length 1.
-    pub normal: [f64; 3],
+    pub normal: [f64; NW_DIRECTIONS],
     /// Mean velocity of the gas [m/s].
-    pub flow: [f64; 3],
+    pub flow: [f64; NW_DIRECTIONS],
     /// Standard deviation of each component of the velocity away from walls [m/s], `sqrt(2 k/3)`; 0 where it is
     /// not known, then it is the friction velocity.
     pub core_fluctuation: f64,
     /// Lagrangian time scale away from walls [s], some `k/(7 epsilon)`.
     pub core_time: f64,
     /// Gradient of `core_fluctuation` [1/s].
-    pub core_gradient: [f64; 3],
+    pub core_gradient: [f64; NW_DIRECTIONS],
     /// The walk [1]: kept by the caller from step to step.
-    pub values: [f64; 3],
+    pub values: [f64; NW_DIRECTIONS],
     /// Fluctuating velocity of the gas [m/s].
-    pub velocity: [f64; 3],
+    pub velocity: [f64; NW_DIRECTIONS],
     /// Longest next step [s] that does not change the statistics.
     pub longest_step: f64,
 }
