@@ -8,10 +8,10 @@
 //! `c = v_0 - d_0 + s/b`.
 //!
 //! `d_1` is taken where a constant drive would lead (Heun). A step is halved while the response changes by more than a
-//! tenth, or the drive does and displaces the particle by more than a twentieth of its diameter; it is at most a fifth
-//! of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement; whether it
-//! touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number of the
-//! particle and its step alone.
+//! twentieth, or the drive does and displaces the particle by more than a hundredth of its diameter; it is at most a
+//! fifth of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement;
+//! whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number
+//! of the particle and its step alone.
 
 use nalgebra::Vector3;
 
@@ -34,9 +34,9 @@ const STEP_LIMIT: usize = 20_000_000;
 /// Shortest flight in steps, so that no short piece of a field is skipped.
 const FEWEST_STEPS: f64 = 200.0;
 /// Largest change of drive and response in a step, over their size [1].
-const LARGEST_CHANGE: f64 = 0.1;
+const LARGEST_CHANGE: f64 = 0.05;
 /// Displacement by a change of the drive that need not be looked at, over the diameter [1].
-const DISPLACEMENT: f64 = 0.05;
+const DISPLACEMENT: f64 = 0.01;
 /// Halvings of a step.
 const HALVINGS: u32 = 40;
 /// First stream of the draws of a path; those of impacts are far below.
