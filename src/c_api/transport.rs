@@ -141,7 +141,6 @@ pub unsafe extern "C" fn nw_walk_advance(walk: *mut nw_walk) -> nw_status {
 /// # Safety
 /// `force` can be written.
 #[unsafe(no_mangle)]
-#[expect(clippy::too_many_arguments, reason = "numbers of one formula; a struct would only name them again")]
 pub unsafe extern "C" fn nw_thermophoresis(
     temperature: f64,
     density: f64,
