@@ -43,6 +43,9 @@
 // Number of processes that change a deposit.
 #define NW_PROCESSES 4
 
+// Number of directions of space.
+#define NW_DIRECTIONS 3
+
 // Bit of `flags`: a property or a fitted term was used outside its stated range.
 #define NW_OUTSIDE_VALID_RANGE 1
 
@@ -330,6 +333,48 @@ typedef struct nw_deposit_losses {
   // Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
   double mass[NW_PROCESSES];
 } nw_deposit_losses;
+
+// The walk of the gas's fluctuating velocity along the path of a particle, and the gas at the particle's place.
+// Fill it with `nw_walk_init`, then set what there is.
+typedef struct nw_walk {
+  // `sizeof(nw_walk)`.
+  uint32_t struct_size;
+  // Zero.
+  uint32_t reserved;
+  // Seed of the run.
+  uint64_t seed;
+  // Key of the particle, unique within the run.
+  uint64_t key;
+  // Number of the step, 0 at the start of the particle; `nw_walk_advance` adds 1.
+  uint64_t step;
+  // Duration of the step that has brought the particle here [s], not negative.
+  double duration;
+  // Relaxation time of the particle [s], not negative.
+  double relaxation_time;
+  // Friction velocity at the nearest wall [m/s]; 0 far from walls, where `core_fluctuation` is needed.
+  double friction_velocity;
+  // Kinematic viscosity of the gas [m2/s]; needed beside a wall.
+  double kinematic_viscosity;
+  // Distance from the wall [m], not negative.
+  double wall_distance;
+  // Direction away from the wall, of length 1.
+  double normal[NW_DIRECTIONS];
+  // Mean velocity of the gas [m/s].
+  double flow[NW_DIRECTIONS];
+  // Standard deviation of each component of the velocity away from walls [m/s], `sqrt(2 k/3)`; 0 where it is
+  // not known, then it is the friction velocity.
+  double core_fluctuation;
+  // Lagrangian time scale away from walls [s], some `k/(7 epsilon)`.
+  double core_time;
+  // Gradient of `core_fluctuation` [1/s].
+  double core_gradient[NW_DIRECTIONS];
+  // The walk [1]: kept by the caller from step to step.
+  double values[NW_DIRECTIONS];
+  // Fluctuating velocity of the gas [m/s].
+  double velocity[NW_DIRECTIONS];
+  // Longest next step [s] that does not change the statistics.
+  double longest_step;
+} nw_walk;
 
 // Success.
 #define NW_OK 0
@@ -749,6 +794,36 @@ const char *nw_process_name(uint32_t process);
 // Returns how tables name the mass that a process takes, for instance `resuspended`, as a static
 // string: empty for a process that conserves mass, null from `NW_PROCESSES` on.
 const char *nw_process_loss(uint32_t process);
+
+// Initialises a walk: its size and zeros.
+//
+// # Safety
+// `walk` can be written.
+nw_status nw_walk_init(struct nw_walk *walk);
+
+// Takes the walk on by the step that has brought the particle to its place, or starts it at step 0, and gives the
+// fluctuating velocity of the gas there. The draws depend on seed, key and step alone. `NW_BAD_STATE` if an input is
+// not finite, negative or missing.
+//
+// # Safety
+// `walk` begins with its `struct_size`.
+nw_status nw_walk_advance(struct nw_walk *walk);
+
+// Computes the thermophoretic force on a sphere over the gradient of the gas's temperature [N m/K], negative: the
+// force points to the cold. Of the gas: `temperature` [K], `density` [kg/m3], `viscosity` [Pa s], `conductivity`
+// [W/(m K)], `mean_free_path` [m] (0 in a dense gas); of the particle: `diameter` [m], `particle_conductivity`
+// [W/(m K)]. `NW_BAD_STATE` if one is not finite or not positive.
+//
+// # Safety
+// `force` can be written.
+nw_status nw_thermophoresis(double temperature,
+                            double density,
+                            double viscosity,
+                            double conductivity,
+                            double mean_free_path,
+                            double diameter,
+                            double particle_conductivity,
+                            double *force);
 
 #ifdef __cplusplus
 }  // extern "C"

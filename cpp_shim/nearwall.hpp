@@ -218,6 +218,28 @@ inline std::uint64_t key_of_values(const double* values, std::size_t count) {
     return key;
 }
 
+// A walk of the gas's fluctuation; its step, values and velocity are zero.
+inline nw_walk make_walk() noexcept {
+    nw_walk walk;
+    nw_walk_init(&walk);
+    return walk;
+}
+
+// Takes a walk on by the step that has brought the particle to its place; it is untouched on failure.
+inline nw_status advance(nw_walk& walk) noexcept {
+    return nw_walk_advance(&walk);
+}
+
+// Thermophoretic force over the gradient of the gas's temperature [N m/K]; see nw_thermophoresis.
+inline double thermophoresis(double temperature, double density, double viscosity, double conductivity,
+                             double mean_free_path, double diameter, double particle_conductivity) {
+    double force = 0.0;
+    detail::check(nw_thermophoresis(temperature, density, viscosity, conductivity, mean_free_path, diameter,
+                                    particle_conductivity, &force),
+                  std::string("nw_thermophoresis"));
+    return force;
+}
+
 // Adds the captured particles of a step to a deposit, which is untouched on failure.
 inline nw_status add(const nw_deposit_source& source, nw_deposit& deposit) noexcept {
     return nw_deposit_add(&source, &deposit);

@@ -52,7 +52,8 @@
 //! [`input`] reads TOML files with errors that name line and key. [`law`] has what laws by name
 //! share: parameters, source and range. A [`deposit`] is what earlier particles left on a piece of
 //! wall; a code may keep one for each face and pass it to later impacts. [`erosion`] sums what
-//! impacts remove of a wall. [`c_api`] is the C interface.
+//! impacts remove of a wall. [`transport`] brings particles to the wall: turbulence, thermophoresis,
+//! Brownian motion. [`c_api`] is the C interface.
 //!
 //! The crate `nearwall-lab` (folder `lab`) has everything around the library: measurements,
 //! standalone cases, diagnosis, HTML pages and the command `nearwall`.
@@ -76,6 +77,7 @@ pub mod normal;
 pub mod rng;
 pub mod slag;
 pub mod tangential;
+pub mod transport;
 mod vector_math;
 
 pub use impact::{Impact, ImpactError, Outcome, Regime, global_restitution};

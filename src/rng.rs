@@ -5,6 +5,8 @@
 //! an impact draws the same number on any thread, rank or restart. It is not taken from a crate:
 //! its bits are part of the contract of the C library and must not change with a dependency.
 
+use std::f64::consts::TAU;
+
 /// The random numbers of one impact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ImpactRng {
@@ -23,16 +25,31 @@ impl ImpactRng {
     /// A number in the open interval (0, 1), uniformly distributed; each `stream` is independent.
     #[inline(always)]
     pub fn uniform(self, stream: u64) -> f64 {
-        let [a, b, ..] = philox(
-            [low(self.key), high(self.key), low(stream), high(stream)],
-            [low(self.seed), high(self.seed)],
-        );
-        // The upper 53 bits `n` of both words give `(n + 1/2) / 2^53`. Integers are converted
-        // through the last bits of 2^84 and 2^52, which vector instructions can do.
-        let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
-        let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
-        ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)
+        let [a, b, ..] = self.words(stream);
+        unit_number(a, b)
     }
+
+    /// Two independent numbers of the standard normal distribution (Box and Muller 1958).
+    pub fn normal(self, stream: u64) -> [f64; 2] {
+        let [a, b, c, d] = self.words(stream);
+        let (radius, angle) = ((-2.0 * unit_number(a, b).ln()).sqrt(), TAU * unit_number(c, d));
+        [radius * angle.cos(), radius * angle.sin()]
+    }
+
+    #[inline(always)]
+    fn words(self, stream: u64) -> [u64; 4] {
+        philox([low(self.key), high(self.key), low(stream), high(stream)], [low(self.seed), high(self.seed)])
+    }
+}
+
+/// A number in (0, 1) from two words of 32 bits.
+#[inline(always)]
+fn unit_number(a: u64, b: u64) -> f64 {
+    // The upper 53 bits `n` of both words give `(n + 1/2) / 2^53`. Integers are converted
+    // through the last bits of 2^84 and 2^52, which vector instructions can do.
+    let upper = f64::from_bits(TWO_84.to_bits() | a >> 11) - (TWO_84 + TWO_52);
+    let lower = f64::from_bits(TWO_52.to_bits() | (a << 21 & 0xFFFF_FFFF) | b >> 11);
+    ((upper + lower) + 0.5) * (1.0 / (1u64 << 53) as f64)
 }
 
 /// `2^52`.
@@ -86,6 +103,27 @@ mod tests {
             let [a, b, ..] = philox([key, 0, 3, 0], [9, 0]);
             let n = (a << 32 | b) >> 11;
             assert_eq!(ImpactRng::new(9, key).uniform(3), (n as f64 + 0.5) / (1u64 << 53) as f64);
+        }
+    }
+
+    /// Moments of a million: 0, 1, 0, 3; both numbers of a pair are independent.
+    #[test]
+    fn normal_numbers_have_the_moments_of_the_distribution() {
+        let mut sums = [0.0; 5];
+        let count = 500_000;
+        for key in 0..count {
+            let pair = ImpactRng::new(4, key).normal(7);
+            for number in pair {
+                (0..4).for_each(|power| sums[power] += number.powi(power as i32 + 1));
+            }
+            sums[4] += pair[0] * pair[1];
+        }
+        let means = sums.map(|sum| sum / (2 * count) as f64);
+        for (mean, (expected, variance)) in
+            means.into_iter().zip([(0.0, 1.0), (1.0, 2.0), (0.0, 15.0), (3.0, 96.0), (0.0, 0.25)])
+        {
+            let error = f64::sqrt(variance / (2 * count) as f64);
+            assert!((mean - expected).abs() < 5.0 * error, "{mean} instead of {expected}");
         }
     }
 

@@ -27,6 +27,7 @@ module nearwall
   integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
   integer(c_int32_t), parameter :: NW_EXTRA_INPUTS = 8
   integer(c_int32_t), parameter :: NW_PROCESSES = 4
+  integer(c_int32_t), parameter :: NW_DIRECTIONS = 3
   integer(c_int32_t), parameter :: NW_OUTSIDE_VALID_RANGE = 1
   integer(c_int32_t), parameter :: NW_OK = 0
   integer(c_int32_t), parameter :: NW_NULL_POINTER = 1
@@ -187,6 +188,27 @@ module nearwall
     integer(c_int32_t) :: reserved
     real(c_double) :: mass(NW_PROCESSES)
   end type nw_deposit_losses
+
+  type, bind(c) :: nw_walk
+    integer(c_int32_t) :: struct_size
+    integer(c_int32_t) :: reserved
+    integer(c_int64_t) :: seed
+    integer(c_int64_t) :: key
+    integer(c_int64_t) :: step
+    real(c_double) :: duration
+    real(c_double) :: relaxation_time
+    real(c_double) :: friction_velocity
+    real(c_double) :: kinematic_viscosity
+    real(c_double) :: wall_distance
+    real(c_double) :: normal(NW_DIRECTIONS)
+    real(c_double) :: flow(NW_DIRECTIONS)
+    real(c_double) :: core_fluctuation
+    real(c_double) :: core_time
+    real(c_double) :: core_gradient(NW_DIRECTIONS)
+    real(c_double) :: values(NW_DIRECTIONS)
+    real(c_double) :: velocity(NW_DIRECTIONS)
+    real(c_double) :: longest_step
+  end type nw_walk
 
   interface
     function nw_abi_version() bind(c)
@@ -521,6 +543,31 @@ module nearwall
       integer(c_int32_t), value :: process
       type(c_ptr) :: nw_process_loss
     end function nw_process_loss
+
+    function nw_walk_init(walk) bind(c)
+      import
+      type(nw_walk), intent(inout) :: walk
+      integer(c_int32_t) :: nw_walk_init
+    end function nw_walk_init
+
+    function nw_walk_advance(walk) bind(c)
+      import
+      type(nw_walk), intent(inout) :: walk
+      integer(c_int32_t) :: nw_walk_advance
+    end function nw_walk_advance
+
+    function nw_thermophoresis(temperature, density, viscosity, conductivity, mean_free_path, diameter, particle_conductivity, force) bind(c)
+      import
+      real(c_double), value :: temperature
+      real(c_double), value :: density
+      real(c_double), value :: viscosity
+      real(c_double), value :: conductivity
+      real(c_double), value :: mean_free_path
+      real(c_double), value :: diameter
+      real(c_double), value :: particle_conductivity
+      real(c_double), intent(inout) :: force
+      integer(c_int32_t) :: nw_thermophoresis
+    end function nw_thermophoresis
 
   end interface
   ! END GENERATED

@@ -14,6 +14,7 @@ mod deposit;
 mod extra;
 mod impact;
 mod processes;
+mod transport;
 mod types;
 
 use std::ffi::{CStr, c_char};
@@ -33,6 +34,7 @@ pub use deposit::*;
 pub use extra::*;
 pub use impact::*;
 pub use processes::*;
+pub use transport::*;
 use types::status_text;
 pub use types::*;
 

@@ -343,3 +343,38 @@ fn temperature_ranges_are_those_of_the_model() {
         calls.free(model);
     }
 }
+
+/// A walk of the C interface has the statistics of its wall: 4000 walks of 60 steps at y+ = 20.
+#[test]
+fn walks_have_the_fluctuations_of_the_wall() {
+    let calls = Calls::load();
+    let (count, mut squares) = (4000, [0.0; 3]);
+    for key in 0..count {
+        let mut walk = nw_walk::default();
+        assert_eq!(unsafe { (calls.nw_walk_init)(&raw mut walk) }, NW_OK);
+        (walk.seed, walk.key) = (7, key);
+        (walk.friction_velocity, walk.kinematic_viscosity, walk.wall_distance) = (0.3, 1.5e-5, 1e-3);
+        (walk.normal, walk.flow) = ([0.0, 0.0, 1.0], [5.0, 0.0, 0.0]);
+        // So heavy that it is not pushed off the wall.
+        (walk.duration, walk.relaxation_time) = (1e-4, 1e9);
+        for step in 1..=60 {
+            assert_eq!(unsafe { (calls.nw_walk_advance)(&raw mut walk) }, NW_OK);
+            assert_eq!(walk.step, step);
+        }
+        (0..3).for_each(|axis| squares[axis] += walk.velocity[axis].powi(2) / count as f64);
+    }
+    // The fits by hand at y+ = 20, along x, y (across) and z (away).
+    for (square, expected) in squares.into_iter().zip([2.5704, 1.3127, 0.6594]) {
+        let ratio = square.sqrt() / (0.3 * expected);
+        assert!((ratio - 1.0).abs() < 5.0 / f64::sqrt(2.0 * count as f64), "{expected}: {ratio}");
+    }
+    let mut walk = nw_walk::default();
+    assert_eq!(unsafe { (calls.nw_walk_advance)(&raw mut walk) }, NW_BAD_STATE);
+    let mut force = 1.0;
+    let call = calls.nw_thermophoresis;
+    assert_eq!(unsafe { call(300.0, 1.2, 1.8e-5, 0.026, 0.0, 1e-6, 0.0, &raw mut force) }, NW_BAD_STATE);
+    assert_eq!(force, 1.0);
+    // By hand in a dense gas: -6 pi 1.17 K/(1 + 2 K) mu² d/(rho T) with K = 0.026.
+    assert_eq!(unsafe { call(300.0, 1.2, 1.8e-5, 0.026, 0.0, 1e-6, 1.0, &raw mut force) }, NW_OK);
+    assert!((force / -4.905e-19 - 1.0).abs() < 1e-3, "{force}");
+}

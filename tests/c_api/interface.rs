@@ -45,6 +45,9 @@ macro_rules! for_each_function {
             nw_wall_processes: unsafe extern "C" fn(*const nw_model, u32, *mut u32) -> i32,
             nw_process_name: unsafe extern "C" fn(u32) -> *const c_char,
             nw_process_loss: unsafe extern "C" fn(u32) -> *const c_char,
+            nw_walk_init: unsafe extern "C" fn(*mut nw_walk) -> i32,
+            nw_walk_advance: unsafe extern "C" fn(*mut nw_walk) -> i32,
+            nw_thermophoresis: unsafe extern "C" fn(f64, f64, f64, f64, f64, f64, f64, *mut f64) -> i32,
         }
     };
 }
@@ -62,6 +65,7 @@ macro_rules! for_each_struct {
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
             nw_deposit_surroundings { struct_size reserved voidage wall_temperature gas_density kinematic_viscosity shear_down shear_across gravity_outward gravity_along draw }
             nw_deposit_losses { struct_size reserved mass }
+            nw_walk { struct_size reserved seed key step duration relaxation_time friction_velocity kinematic_viscosity wall_distance normal flow core_fluctuation core_time core_gradient values velocity longest_step }
         }
     };
 }
@@ -72,6 +76,7 @@ macro_rules! for_each_number {
             NW_ABI_VERSION
             NW_EXTRA_INPUTS
             NW_PROCESSES
+            NW_DIRECTIONS
             NW_OUTSIDE_VALID_RANGE
             NW_OK
             NW_NULL_POINTER

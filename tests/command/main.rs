@@ -10,6 +10,7 @@ mod compare;
 mod corpus;
 mod deposit_probe;
 mod diagnose;
+mod dispersion;
 mod extra_inputs;
 #[cfg(unix)]
 mod faults;

@@ -15,7 +15,8 @@ from .diagnosis import Diagnosis, Finding, Gain, Parameter, diagnose
 from .library import (ABI_VERSION, BAD_STATE, EXTRA_INPUTS, FILE, INPUTS, MODEL, NO_CONDUCTIVITY, NOT_UTF8, NSP_NSW, NSP_SW,
                       NULL_POINTER, OK, OUT_OF_RANGE, OUTSIDE_VALID_RANGE, PANIC, REGIMES, SP_NSW, SP_SW, STRUCT_SIZE,
                       UNKNOWN_INPUT, UNKNOWN_WALL, VERSION, Deposit, DepositSource, DepositSurroundings, Error, Model,
-                      Outcomes, Speeds, TemperatureRanges, WallCooling, WallHeat, key_of_values, unlikely)
+                      Outcomes, Speeds, TemperatureRanges, Walk, WallCooling, WallHeat, key_of_values,
+                      thermophoresis, unlikely)
 from .materials import Material, Property, materials
 from .prediction import predict
 from .simulation import Simulation, simulate

@@ -24,6 +24,7 @@ Input = Union[float, NDArray[numpy.float64]]
 ABI_VERSION = 1
 EXTRA_INPUTS = 8
 PROCESSES = 4
+DIRECTIONS = 3
 OUTSIDE_VALID_RANGE = 1
 OK = 0
 NULL_POINTER = 1
@@ -122,6 +123,16 @@ class nw_deposit_losses(Structure):
         ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES)]
 
 
+class nw_walk(Structure):
+    _fields_ = [
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("seed", c_uint64), ("key", c_uint64),
+        ("step", c_uint64), ("duration", c_double), ("relaxation_time", c_double),
+        ("friction_velocity", c_double), ("kinematic_viscosity", c_double), ("wall_distance", c_double),
+        ("normal", c_double * DIRECTIONS), ("flow", c_double * DIRECTIONS), ("core_fluctuation", c_double),
+        ("core_time", c_double), ("core_gradient", c_double * DIRECTIONS), ("values", c_double * DIRECTIONS),
+        ("velocity", c_double * DIRECTIONS), ("longest_step", c_double)]
+
+
 # Result and arguments of every function.
 FUNCTIONS = {
     "nw_abi_version": (c_uint32, []),
@@ -166,6 +177,9 @@ FUNCTIONS = {
     "nw_wall_processes": (c_int32, [c_void_p, c_uint32, POINTER(c_uint32)]),
     "nw_process_name": (c_char_p, [c_uint32]),
     "nw_process_loss": (c_char_p, [c_uint32]),
+    "nw_walk_init": (c_int32, [POINTER(nw_walk)]),
+    "nw_walk_advance": (c_int32, [POINTER(nw_walk)]),
+    "nw_thermophoresis": (c_int32, [c_double, c_double, c_double, c_double, c_double, c_double, c_double, POINTER(c_double)]),
 }
 # END GENERATED
 
@@ -348,6 +362,37 @@ def key_of_values(*values: float) -> int:
     key = c_uint64()
     _check(_library.nw_key_of_values((c_double * len(values))(*values), len(values), byref(key)))
     return key.value
+
+
+class Walk:
+    """The walk of the gas's fluctuating velocity along the path of a particle; keywords are the fields of `nw_walk`."""
+
+    def __init__(self, **fields) -> None:
+        self.fields = nw_walk()
+        _check(_library.nw_walk_init(byref(self.fields)))
+        self._set(fields)
+
+    def _set(self, fields) -> None:
+        for name, value in fields.items():
+            kind = dict(nw_walk._fields_).get(name)
+            if kind is None:
+                raise TypeError(f"a walk has no {name}")
+            setattr(self.fields, name, kind(*value) if hasattr(value, "__len__") else value)
+
+    def advance(self, **fields) -> tuple[float, ...]:
+        """Takes the walk on by the step that has brought the particle here; returns the fluctuation of the gas [m/s]."""
+        self._set(fields)
+        _check(_library.nw_walk_advance(byref(self.fields)))
+        return tuple(self.fields.velocity)
+
+
+def thermophoresis(*, temperature: float, density: float, viscosity: float, conductivity: float, mean_free_path: float,
+                   diameter: float, particle_conductivity: float) -> float:
+    """The thermophoretic force on a sphere over the gradient of the gas's temperature [N m/K]; all in SI units."""
+    force = c_double()
+    _check(_library.nw_thermophoresis(temperature, density, viscosity, conductivity, mean_free_path, diameter,
+                                      particle_conductivity, byref(force)))
+    return force.value
 
 
 class Model:

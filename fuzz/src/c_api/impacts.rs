@@ -218,6 +218,37 @@ pub fn key(bytes: &mut Bytes<'_>) {
     }
 }
 
+/// A walk with any inputs.
+pub fn walk(bytes: &mut Bytes<'_>) {
+    let mut walk =
+        nw_walk { seed: bytes.word(), key: bytes.word(), step: bytes.word(), ..nw_walk::default() };
+    for value in [
+        &mut walk.duration,
+        &mut walk.relaxation_time,
+        &mut walk.friction_velocity,
+        &mut walk.kinematic_viscosity,
+        &mut walk.wall_distance,
+        &mut walk.core_fluctuation,
+        &mut walk.core_time,
+    ] {
+        *value = bytes.number();
+    }
+    for vector in [&mut walk.normal, &mut walk.flow, &mut walk.core_gradient, &mut walk.values] {
+        *vector = std::array::from_fn(|_| bytes.number());
+    }
+    // SAFETY: whole walks.
+    let status = unsafe { nw_walk_advance(&raw mut walk) };
+    known(status);
+    assert!(status != NW_OK || walk.velocity.iter().all(|part| part.is_finite()), "{walk:?}");
+    let given: [f64; 7] = std::array::from_fn(|_| bytes.number());
+    let mut force = 0.0;
+    let [a, b, c, d, e, f, g] = given;
+    // SAFETY: the force can be written.
+    let status = unsafe { nw_thermophoresis(a, b, c, d, e, f, g, &raw mut force) };
+    known(status);
+    assert!(status != NW_OK || (force.is_finite() && force <= 0.0), "{given:?}");
+}
+
 pub fn ranges(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let wall = [0, 1, 2, u32::MAX][bytes.below(4)];
     let mut buffers: [GuardedBuffer; 4] = std::array::from_fn(|_| GuardedBuffer::new(bytes, 8));

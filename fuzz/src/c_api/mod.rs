@@ -33,7 +33,7 @@ pub fn c_api(bytes: &[u8]) {
     let mut steps = 0;
     while !bytes.is_empty() && steps < 100 {
         steps += 1;
-        match bytes.byte() % 16 {
+        match bytes.byte() % 17 {
             0 => parse(&mut bytes),
             1 => load(&mut bytes),
             2 => find_wall(&mut bytes, model),
@@ -45,7 +45,8 @@ pub fn c_api(bytes: &[u8]) {
             11 => impacts::key(&mut bytes),
             9 => impacts::of_particles(&mut bytes, model),
             10 => impacts::extra(&mut bytes, model),
-            12.. => wall.call(&mut bytes, model),
+            12..16 => wall.call(&mut bytes, model),
+            16 => impacts::walk(&mut bytes),
             _ => {
                 // SAFETY: our own model, freed once.
                 unsafe { nw_model_free(model) };

@@ -37,6 +37,9 @@ pub enum SimulationError {
     /// A particle melts and no melting point is known.
     #[error("the material `{0}` has no melting_point; add melting_point to the particles")]
     NoMeltingPoint(String),
+    /// Thermophoresis pushes a particle whose thermal conductivity is not known.
+    #[error("the material `{0}` has no thermal_conductivity; add conductivity to the particles")]
+    NoConductivity(String),
     /// A particle starts in or behind a surface.
     #[error("starts in or behind `{0}`; move the start or turn the normal")]
     Misplaced(String),

@@ -4,6 +4,7 @@
 //! dense output.
 
 use differential_equations::error::Error;
+use differential_equations::interpolate::Interpolation;
 use differential_equations::methods::ExplicitRungeKutta;
 use differential_equations::ode::OrdinaryNumericalMethod;
 use differential_equations::status::Status;
@@ -31,7 +32,7 @@ const STEP_LIMIT: usize = 200_000;
 /// Most iterations until a contact is found.
 const CONTACT_ITERATIONS: u32 = 80;
 /// Gap at a contact, in diameters.
-const NEAR: f64 = 1e-10;
+pub(super) const NEAR: f64 = 1e-10;
 
 /// Follows a particle from `start` at `time` until it touches a surface or the time `until` is reached.
 ///
@@ -84,9 +85,11 @@ pub(super) fn fly_timed(
                     break;
                 }
             }
-            let arrival = contact(&mut solver, surfaces, &motion.body);
-            let end = arrival.map_or_else(|| (solver.t(), *solver.y()), |end| (end.time, end.state));
-            stays.add(&mut solver, surfaces, &motion.body, end);
+            let step = Step { times: [solver.t_prev(), solver.t()], states: [*solver.y_prev(), *solver.y()] };
+            let mut at = |time| solver.interpolate(time).unwrap_or(step.states[1]);
+            let arrival = contact(&step, &mut at, surfaces, &motion.body);
+            let end = arrival.map_or_else(|| step.end(), |end| (end.time, end.state));
+            stays.add(&step, &mut at, surfaces, &motion.body, end);
             if let Some(arrival) = arrival {
                 return Ok(arrival);
             }
@@ -140,10 +143,28 @@ fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
     [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| tolerance * scale).to_vec()
 }
 
-/// The first contact in the step that the solver has just taken.
-fn contact<S: PathSolver>(solver: &mut S, surfaces: &[Surface], body: &Body) -> Option<FlightEnd> {
-    let (from, to) = (solver.t_prev(), solver.t());
-    let (before, after) = (*solver.y_prev(), *solver.y());
+/// A step of a path: its times [s] and the states there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Step {
+    pub times: [f64; 2],
+    pub states: [ParticleState; 2],
+}
+
+impl Step {
+    /// The later time and state.
+    pub fn end(&self) -> (f64, ParticleState) {
+        (self.times[1], self.states[1])
+    }
+}
+
+/// The first contact in a step; `at` gives the states in it.
+pub(super) fn contact(
+    step: &Step,
+    at: &mut impl FnMut(f64) -> ParticleState,
+    surfaces: &[Surface],
+    body: &Body,
+) -> Option<FlightEnd> {
+    let ([from, to], [before, after]) = (step.times, step.states);
     let reach = reach(to - from, &before, &after);
     let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
@@ -153,7 +174,7 @@ fn contact<S: PathSolver>(solver: &mut S, surfaces: &[Surface], body: &Body) -> 
         if at_start > reach || at_start < -1e-6 * body.diameter {
             continue;
         }
-        if let Some(arrival) = crossing(solver, &gap, NEAR * body.diameter, [from, to], [&before, &after])
+        if let Some(arrival) = crossing(at, &gap, NEAR * body.diameter, step)
             && surface.shape.covers(&position(&arrival.1))
             && first.as_ref().is_none_or(|earlier| arrival.0 < earlier.time)
         {
@@ -164,33 +185,27 @@ fn contact<S: PathSolver>(solver: &mut S, surfaces: &[Surface], body: &Body) -> 
 }
 
 /// The last time and state in front of the surface, when the step leads behind it: at most `near` [m] away.
-fn crossing<S: PathSolver>(
-    solver: &mut S,
+fn crossing(
+    at: &mut impl FnMut(f64) -> ParticleState,
     gap: &impl Fn(&ParticleState) -> f64,
     near: f64,
-    [from, to]: [f64; 2],
-    [before, after]: [&ParticleState; 2],
+    &Step { times: [from, to], states: [before, after] }: &Step,
 ) -> Option<(f64, ParticleState)> {
-    let (mut low, mut in_front) = (from, gap(before));
+    let (mut low, mut in_front) = (from, gap(&before));
     for place in 1..=PATH_POINTS {
         let high = if place == PATH_POINTS {
             to
         } else {
             from + (to - from) * f64::from(place) / f64::from(PATH_POINTS)
         };
-        let there = if place == PATH_POINTS { *after } else { solver.interpolate(high).ok()? };
+        let there = if place == PATH_POINTS { after } else { at(high) };
         let behind = gap(&there);
         if behind >= 0.0 {
             (low, in_front) = (high, behind);
             continue;
         }
-        let arrival = arrival(
-            |time| Some(gap(&solver.interpolate(time).ok()?)),
-            near,
-            [low, high],
-            [in_front, behind],
-        )?;
-        return Some((arrival, solver.interpolate(arrival).ok()?));
+        let arrival = arrival(|time| gap(&at(time)), near, [low, high], [in_front, behind]);
+        return Some((arrival, at(arrival)));
     }
     None
 }
@@ -199,11 +214,11 @@ fn crossing<S: PathSolver>(
 /// negative gap. Illinois method: the secant, with the gap of an end that stays for a second time
 /// halved.
 fn arrival(
-    mut gap: impl FnMut(f64) -> Option<f64>,
+    mut gap: impl FnMut(f64) -> f64,
     near: f64,
     [mut low, mut high]: [f64; 2],
     [in_front, behind]: [f64; 2],
-) -> Option<f64> {
+) -> f64 {
     let aim = 0.5 * near;
     let (mut at_low, mut at_high) = (in_front - aim, behind - aim);
     let mut last_moved = 0.0;
@@ -215,9 +230,9 @@ fn arrival(
         if time <= low || time >= high {
             break;
         }
-        let here = gap(time)? - aim;
+        let here = gap(time) - aim;
         if here.abs() <= aim {
-            return Some(time);
+            return time;
         }
         if here > 0.0 {
             (low, at_low) = (time, here);
@@ -228,5 +243,5 @@ fn arrival(
         }
         last_moved = here;
     }
-    Some(low)
+    low
 }

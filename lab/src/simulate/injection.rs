@@ -48,6 +48,8 @@ pub struct Injection {
     pub density: Option<f64>,
     /// Heat capacity [J/(kg K)]; without it the temperature stays.
     pub heat_capacity: Option<f64>,
+    /// Thermal conductivity [W/(m K)]; otherwise that of the model's particle.
+    pub conductivity: Option<f64>,
     fusion: Option<FusionKeys>,
     /// Emissivity [1] and temperature of the surroundings [K].
     pub radiation: Option<(f64, f64)>,
@@ -141,6 +143,7 @@ impl Injection {
             temperature: needed("temperature", "a temperature [K]", 1.0, 1e5)?,
             conversion: or("conversion", 0.0, 1.0, Distribution::fixed(1.0))?,
             density: section.number_within("density", positive, 1e6)?,
+            conductivity: section.number_within("conductivity", positive, 1e5)?,
             fusion: read_fusion(section, heat_capacity)?,
             heat_capacity,
             radiation: read_radiation(section)?,

@@ -59,6 +59,16 @@ impl LinearProfile {
         self.values[after - 1] + share * (self.values[after] - self.values[after - 1])
     }
 
+    /// The change of the value over length [1/m] at a position [m].
+    pub fn gradient(&self, position: &Vector3<f64>) -> Vector3<f64> {
+        let after = self.places.partition_point(|p| *p <= position[self.axis]);
+        if after == 0 || after == self.places.len() {
+            return Vector3::zeros();
+        }
+        let rise = self.values[after] - self.values[after - 1];
+        Vector3::ith(self.axis, rise / (self.places[after] - self.places[after - 1]))
+    }
+
     /// Smallest and largest value.
     pub fn extremes(&self) -> [f64; 2] {
         let fold = |start: f64, pick: fn(f64, f64) -> f64| self.values.iter().copied().fold(start, pick);
@@ -75,6 +85,8 @@ mod tests {
         let profile = LinearProfile { axis: 2, places: vec![0.0, 1.0], values: vec![10.0, 30.0] };
         let at = |z: f64| profile.at(&Vector3::new(5.0, 5.0, z));
         assert_eq!([at(-1.0), at(0.25), at(1.0), at(9.0)], [10.0, 15.0, 30.0, 30.0]);
+        assert_eq!(profile.gradient(&Vector3::new(5.0, 5.0, 0.25)), Vector3::new(0.0, 0.0, 20.0));
+        assert_eq!(profile.gradient(&Vector3::new(0.0, 0.0, 2.0)), Vector3::zeros());
         assert_eq!(profile.extremes(), [10.0, 30.0]);
         assert_eq!(LinearProfile::constant(7.0).at(&Vector3::zeros()), 7.0);
     }

@@ -114,34 +114,62 @@ pub struct ParticleMotion<'a> {
     pub body: Body,
 }
 
-impl ODE<f64, ParticleState> for ParticleMotion<'_> {
-    fn diff(&self, _time: f64, y: &ParticleState, rate: &mut ParticleState) {
+/// What acts on a particle at one moment.
+pub(super) struct Rates {
+    /// Rate [1/s] at which it takes on the velocity of the gas.
+    pub response: f64,
+    /// Acceleration of weight and buoyancy [m/s²].
+    pub weight: Vector3<f64>,
+    /// Change of temperature [K/s].
+    pub heating: f64,
+    /// Rate [1/s] at which it takes on the temperature of the gas.
+    pub exchange: f64,
+    /// Change of conversion [1/s].
+    pub conversion: f64,
+}
+
+impl ParticleMotion<'_> {
+    /// What acts on a particle in a gas.
+    pub(super) fn rates(&self, y: &ParticleState, gas: &GasState) -> Rates {
         let body = &self.body;
         let (temperature, conversion) = (body.temperature(y), y[CONVERSION]);
         let diameter = body.diameter_at(conversion);
-        let gas = self.gas.at(&position(y));
         let slip = gas.velocity - velocity(y);
         let reynolds = gas.density * slip.norm() * diameter / gas.viscosity;
         let density = body.density_at(conversion);
         let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
             / drag::slip_factor(gas.mean_free_path, diameter);
-        let acceleration = slip * response + self.gravity * (1.0 - gas.density / density);
-        let heating = body.heat_capacity.map_or(0.0, |capacity| {
+        let [heating, exchange] = body.heat_capacity.map_or([0.0; 2], |capacity| {
             let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
             let dense = heating::nusselt(reynolds, prandtl);
-            let GasState { mean_free_path, accommodation, .. } = gas;
+            let GasState { mean_free_path, accommodation, .. } = *gas;
             let nusselt = heating::thin_gas_nusselt(dense, mean_free_path, diameter, prandtl, accommodation);
             let difference = gas.temperature - temperature;
             let mut heat = heating::convection(nusselt, gas.conductivity, diameter, difference);
             if let Some((emissivity, surroundings)) = body.radiation {
                 heat += heating::radiation(emissivity, diameter, surroundings, temperature);
             }
-            heat / (body.mass_at(conversion) * capacity)
+            let capacity = body.mass_at(conversion) * capacity;
+            [heat / capacity, heating::convection(nusselt, gas.conductivity, diameter, 1.0) / capacity]
         });
+        Rates {
+            response,
+            weight: self.gravity * (1.0 - gas.density / density),
+            heating,
+            exchange,
+            conversion: body.burning.rate(temperature, conversion),
+        }
+    }
+}
+
+impl ODE<f64, ParticleState> for ParticleMotion<'_> {
+    fn diff(&self, _time: f64, y: &ParticleState, rate: &mut ParticleState) {
+        let gas = self.gas.at(&position(y));
+        let Rates { response, weight, heating, conversion, .. } = self.rates(y, &gas);
         rate.fixed_rows_mut::<3>(0).copy_from(&velocity(y));
-        rate.fixed_rows_mut::<3>(3).copy_from(&acceleration);
+        rate.fixed_rows_mut::<3>(3).copy_from(&((gas.velocity - velocity(y)) * response + weight));
         rate[TEMPERATURE] = heating;
-        rate[CONVERSION] = body.burning.rate(temperature, conversion);
+        rate[CONVERSION] = conversion;
     }
 }
 

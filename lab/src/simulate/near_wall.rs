@@ -6,7 +6,8 @@
 //! whole cross-section. Within a step the path is that of the dense output; where the particle
 //! comes near is found by bisection.
 
-use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, PathSolver, position, reach};
+use super::flight::Step;
+use super::motion::{Body, CONVERSION, PATH_POINTS, ParticleState, position, reach};
 use super::surface::{Surface, SurfaceKind, SurfaceShape};
 
 /// Halvings of the piece of a path on which the particle comes near a wall or leaves it.
@@ -36,16 +37,17 @@ impl StayTimes {
         Self { distance, times: vec![StayTime::default(); surfaces] }
     }
 
-    /// Adds the step that the solver has just taken, up to `end`: its time and state.
-    pub(super) fn add<S: PathSolver>(
+    /// Adds a step up to `end`, its time and state; `at` gives the states in it.
+    pub(super) fn add(
         &mut self,
-        solver: &mut S,
+        step: &Step,
+        at: &mut impl FnMut(f64) -> ParticleState,
         surfaces: &[Surface],
         body: &Body,
         (to, after): (f64, ParticleState),
     ) {
-        let (from, before) = (solver.t_prev(), *solver.y_prev());
-        let mut path = Path { solver, from, to, before, after, places: Vec::new() };
+        let (from, before) = (step.times[0], step.states[0]);
+        let mut path = Path { states: at, from, to, before, after, places: Vec::new() };
         let reach = reach(to - from, &before, &after);
         for (time, surface) in self.times.iter_mut().zip(surfaces) {
             if !matches!(surface.kind, SurfaceKind::Wall { .. }) {
@@ -121,8 +123,8 @@ fn overlap([from, to]: [f64; 2], [begin, end]: [f64; 2]) -> f64 {
 }
 
 /// The path of one step.
-struct Path<'a, S> {
-    solver: &'a mut S,
+struct Path<'a, F> {
+    states: &'a mut F,
     from: f64,
     to: f64,
     before: ParticleState,
@@ -131,7 +133,7 @@ struct Path<'a, S> {
     places: Vec<ParticleState>,
 }
 
-impl<S: PathSolver> Path<'_, S> {
+impl<F: FnMut(f64) -> ParticleState> Path<'_, F> {
     /// Calls with the duration and both ends of each piece, and with its states from 0 to 1.
     fn each(
         &mut self,
@@ -142,14 +144,13 @@ impl<S: PathSolver> Path<'_, S> {
             self.places.push(self.before);
             for place in 1..PATH_POINTS {
                 let time = self.from + duration * f64::from(place);
-                self.places.push(self.solver.interpolate(time).unwrap_or(self.after));
+                self.places.push((self.states)(time));
             }
             self.places.push(self.after);
         }
-        let (solver, after) = (&mut *self.solver, self.after);
         for (place, pair) in self.places.windows(2).enumerate() {
             let begin = self.from + duration * place as f64;
-            let mut at = |share: f64| solver.interpolate(begin + duration * share).unwrap_or(after);
+            let mut at = |share: f64| (self.states)(begin + duration * share);
             piece(duration, &pair[0], &pair[1], &mut at);
         }
     }

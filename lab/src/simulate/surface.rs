@@ -73,6 +73,14 @@ impl SurfaceShape {
         }
     }
 
+    /// Divergence of the normal [1/m] at a point: `-1/r` in a pipe.
+    pub fn normal_divergence(&self, position: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Plane { .. } => 0.0,
+            Self::Pipe { radius, .. } => -1.0 / position.xy().norm().max(1e-3 * radius),
+        }
+    }
+
     /// Whether the surface extends to a point near it; a disc and a part of a pipe are bounded.
     pub fn covers(&self, position: &Vector3<f64>) -> bool {
         match self {

@@ -3,6 +3,7 @@
 use nalgebra::Vector3;
 
 use super::case::{Case, HIT_BITS};
+use super::dispersed_flight::{Dispersed, Walk};
 use super::drag;
 use super::error::SimulationError;
 use super::flight::{FlightEnd, fly_timed};
@@ -104,6 +105,8 @@ pub(super) struct Tracker<'a> {
     pub weight: f64,
     stays: StayTimes,
     hits: Vec<Hit>,
+    /// Thermal conductivity [W/(m K)] and the walk of a particle that the gas disperses.
+    dispersed: Option<(f64, Walk)>,
 }
 
 /// A contact with a wall before the model has decided it.
@@ -137,6 +140,7 @@ impl<'a> Tracker<'a> {
             let speed = velocity(&start) + case.gas.at(&position(&start)).velocity;
             start.fixed_rows_mut::<3>(3).copy_from(&speed);
         }
+        let (dispersed, missing) = dispersion(case, injection, number, start[TEMPERATURE]);
         let tracker = Self {
             case,
             injection,
@@ -154,8 +158,9 @@ impl<'a> Tracker<'a> {
             },
             stays,
             hits: Vec::new(),
+            dispersed,
         };
-        let trouble = trouble.or_else(|| tracker.misplaced());
+        let trouble = trouble.or(missing).or_else(|| tracker.misplaced());
         (tracker, trouble)
     }
 
@@ -201,7 +206,14 @@ impl<'a> Tracker<'a> {
         let case = self.case;
         let (from, until) = (self.time, case.time_limit);
         let (start, stays) = (&self.state, &mut self.stays);
-        let end = fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays);
+        let end = match &mut self.dispersed {
+            None => fly_timed(&self.motion, &case.surfaces, [from, until], start, case.tolerance, stays),
+            Some((conductivity, walk)) => {
+                let (motion, surfaces) = (&self.motion, case.surfaces.as_slice());
+                let dispersed = Dispersed { motion, surfaces, conductivity: *conductivity };
+                dispersed.fly([from, until], start, walk, stays)
+            }
+        };
         let FlightEnd { time, state, surface } = end.map_err(Fate::Unusable)?;
         self.let_spin_decay(time - self.time, &state);
         (self.time, self.state) = (time, state);
@@ -279,6 +291,24 @@ impl<'a> Tracker<'a> {
         self.spin += frame.spin_axis() * (outcome.spin - impact.spin);
         true
     }
+}
+
+/// Thermal conductivity [W/(m K)] and walk of a particle with this number that starts at a temperature [K], in a gas
+/// that disperses it; and why it cannot be followed, if it cannot.
+fn dispersion(
+    case: &Case,
+    injection: &Injection,
+    number: u64,
+    temperature: f64,
+) -> (Option<(f64, Walk)>, Option<SimulationError>) {
+    if !case.gas.disperses() {
+        return (None, None);
+    }
+    let material = case.model_of(injection).particle();
+    let known = injection.conductivity.or_else(|| material.thermal_conductivity_near(temperature));
+    let missing = (case.gas.thermophoresis && known.is_none())
+        .then(|| SimulationError::NoConductivity(material.name().to_owned()));
+    (Some((known.unwrap_or(1.0), Walk::new(impact_random(case, number, 0)))), missing)
 }
 
 /// The random numbers of a hit of the particle with this number, by how many it had before.

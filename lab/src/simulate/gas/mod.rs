@@ -1,14 +1,17 @@
 //! The gas that carries the particles: a prescribed velocity field, one kind a file, and the gas's properties.
 //!
-//! Particles do not act on the gas, and these fields have no turbulence: inertia, weight and the mean flow carry a
-//! particle to a wall. Properties are taken at the gas's own local temperature.
+//! Particles do not act on the gas. A field is the mean flow; `[gas.turbulence]` adds fluctuations. Properties are taken at the gas's own local temperature.
 
+mod duct;
 mod stagnation_jet;
 mod swirling_pipe;
+mod turbulence;
 mod uniform;
 
+pub use duct::Duct;
 pub use stagnation_jet::StagnationJet;
 pub use swirling_pipe::SwirlingPipe;
+pub use turbulence::Turbulence;
 pub use uniform::Uniform;
 
 use nalgebra::Vector3;
@@ -18,11 +21,17 @@ use super::linear_profile::LinearProfile;
 use nearwall::deposit::VoidGas;
 use nearwall::input::{InputError, Limits, Section};
 use nearwall::material::Property;
+use nearwall::transport::thermophoresis;
 
 /// A steady velocity field.
 pub trait VelocityField: Send + Sync + std::fmt::Debug {
     /// Gas velocity [m/s] at a position [m]. It has to be finite everywhere, also behind a wall.
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
+
+    /// Friction velocity [m/s] at the walls of the field, where it knows one.
+    fn friction_velocity(&self) -> Option<f64> {
+        None
+    }
 }
 
 /// A gas: its velocity field, temperature and properties.
@@ -33,7 +42,15 @@ pub struct Gas {
     /// In the order of [`GAS_PROPERTIES`].
     properties: [Property; 4],
     mean_free_path: f64,
+    /// Pressure [Pa] from which the mean free path follows instead.
+    pressure: Option<f64>,
     accommodation: f64,
+    /// Its fluctuations, if it has some.
+    pub turbulence: Option<Turbulence>,
+    /// Whether its gradients of temperature push particles.
+    pub thermophoresis: bool,
+    /// Whether its molecules push particles about.
+    pub brownian: bool,
 }
 
 /// Keys and units of the properties that depend on the temperature.
@@ -68,15 +85,16 @@ impl Gas {
     /// [`InputError::Fault`] for an unknown field, a missing property, or one that is not known at the gas's
     /// temperatures.
     pub fn read(section: &Section<'_>) -> Result<Self, InputError> {
-        let name = section.choice("field", &["uniform", "stagnation-jet", "swirling-pipe"])?;
-        let field: Box<dyn VelocityField> = match name.as_deref() {
-            Some("uniform") => Box::new(Uniform::read(section)?),
-            Some("stagnation-jet") => Box::new(StagnationJet::read(section)?),
-            Some(_) => Box::new(SwirlingPipe::read(section)?),
-            None => {
-                let what = "\"uniform\", \"stagnation-jet\" or \"swirling-pipe\"";
-                return Err(section.missing("field", what));
-            }
+        let name = section.choice("field", &["uniform", "stagnation-jet", "swirling-pipe", "duct"])?;
+        let Some(name) = name else {
+            let what = "\"uniform\", \"stagnation-jet\", \"swirling-pipe\" or \"duct\"";
+            return Err(section.missing("field", what));
+        };
+        let mut field: Box<dyn VelocityField> = match name.as_str() {
+            "stagnation-jet" => Box::new(StagnationJet::read(section)?),
+            "swirling-pipe" => Box::new(SwirlingPipe::read(section)?),
+            "uniform" => Box::new(Uniform::read(section)?),
+            _ => Box::new(Uniform::at_rest()),
         };
         let temperature = LinearProfile::read(section, "temperature", 1.0, 1e5)?
             .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
@@ -84,13 +102,27 @@ impl Gas {
             let read = Property::read(section, key, &Limits::positive(unit))?;
             read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
         });
+        let properties = [density?, viscosity?, conductivity?, heat_capacity?];
+        if name == "duct" {
+            let [low, high] = temperature.extremes();
+            let mean = 0.5 * (low + high);
+            let known = |property: &Property| property.at(mean).unwrap_or(f64::NAN);
+            field = Box::new(Duct::read(section, known(&properties[1]) / known(&properties[0]))?);
+        }
+        let turbulence = section.section("turbulence")?;
+        let turbulence = turbulence.map(|s| Turbulence::read(&s, field.friction_velocity())).transpose()?;
         let gas = Self {
             field,
             temperature,
-            properties: [density?, viscosity?, conductivity?, heat_capacity?],
+            properties,
             mean_free_path: section.number_within("mean_free_path", 0.0, f64::INFINITY)?.unwrap_or(0.0),
+            pressure: section.number_within("pressure", f64::MIN_POSITIVE, f64::INFINITY)?,
             accommodation: section.number_within("accommodation", 1e-3, 1.0)?.unwrap_or(1.0),
+            turbulence,
+            thermophoresis: section.boolean("thermophoresis")?.unwrap_or(false),
+            brownian: section.boolean("brownian")?.unwrap_or(false),
         };
+        gas.check_thin(section)?;
         gas.check(section)?;
         Ok(gas)
     }
@@ -102,7 +134,9 @@ impl Gas {
         let [density, viscosity, conductivity, heat_capacity] =
             self.properties.each_ref().map(|property| property.at(temperature).unwrap_or(f64::NAN));
         let velocity = self.field.velocity(position);
-        let Self { mean_free_path, accommodation, .. } = *self;
+        let accommodation = self.accommodation;
+        let from_pressure = |pressure| thermophoresis::mean_free_path(viscosity, density, pressure);
+        let mean_free_path = self.pressure.map_or(self.mean_free_path, from_pressure);
         GasState {
             velocity,
             temperature,
@@ -113,6 +147,16 @@ impl Gas {
             mean_free_path,
             accommodation,
         }
+    }
+
+    /// Gradient of the temperature [K/m] at a position [m].
+    pub fn temperature_gradient(&self, position: &Vector3<f64>) -> Vector3<f64> {
+        self.temperature.gradient(position)
+    }
+
+    /// Whether particles leave the path that the mean flow and their inertia give them.
+    pub fn disperses(&self) -> bool {
+        self.turbulence.is_some() || self.thermophoresis || self.brownian
     }
 
     /// The gas in the voids of a deposit at a position [m] of a wall with a coolant temperature [K]: through
@@ -149,6 +193,20 @@ impl Gas {
             })?;
         }
         Ok(())
+    }
+
+    /// Checks that the mean free path is known where it matters.
+    fn check_thin(&self, section: &Section<'_>) -> Result<(), InputError> {
+        let given = [self.mean_free_path > 0.0, self.pressure.is_some()];
+        match given {
+            [true, true] => Err(section.fault("pressure", "gives the mean free path; remove mean_free_path")),
+            [false, false] if self.thermophoresis || self.brownian => {
+                let what =
+                    "the pressure [Pa], or mean_free_path [m], which molecules that push particles need,";
+                Err(section.missing("pressure", what))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn check(&self, section: &Section<'_>) -> Result<(), InputError> {

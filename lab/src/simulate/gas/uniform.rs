@@ -22,6 +22,13 @@ impl Uniform {
     }
 }
 
+impl Uniform {
+    /// Gas at rest.
+    pub(super) fn at_rest() -> Self {
+        Self { velocity: Vector3::zeros() }
+    }
+}
+
 impl VelocityField for Uniform {
     fn velocity(&self, _position: &Vector3<f64>) -> Vector3<f64> {
         self.velocity

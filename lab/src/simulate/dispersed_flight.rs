@@ -1,0 +1,285 @@
+//! The path of a particle that turbulence, thermophoresis or molecules push off the way of the mean flow.
+//!
+//! In a step the drive `d = u + a/b` changes linearly, with `u` the velocity of the gas with its fluctuation, `a` the
+//! acceleration of weight and thermophoresis, `b` the response rate of the particle. Then `dv/dt = b (d - v)` has an
+//! exact solution for any `b dt`, so that the finest particles need no short steps:
+//!
+//! `v = d(t) - s/b + c exp(-b t)`, `x = x_0 + d_0 t + s t²/2 - s t/b + c (1 - exp(-b t))/b`, `s = (d_1 - d_0)/dt`,
+//! `c = v_0 - d_0 + s/b`.
+//!
+//! `d_1` is taken where a constant drive would lead (Heun). A step is halved while the response changes by more than a
+//! twentieth, or the drive does and displaces the particle by more than a hundredth of its diameter; it is at most a
+//! fifth of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement;
+//! whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number
+//! of the particle and its step alone.
+
+use nalgebra::Vector3;
+
+use super::drag;
+use super::error::SimulationError;
+use super::flight::{FlightEnd, NEAR, Step, contact};
+use super::gas::GasState;
+use super::motion::{
+    CONVERSION, ParticleMotion, ParticleState, Rates, TEMPERATURE, position, state, velocity,
+};
+use super::near_wall::StayTimes;
+use super::surface::{Surface, SurfaceKind};
+use nearwall::rng::ImpactRng;
+use nearwall::transport::GasTurbulence;
+use nearwall::transport::brownian::BrownianStep;
+use nearwall::transport::thermophoresis::{self, ThermalGas};
+
+/// Steps of one flight before it is given up.
+const STEP_LIMIT: usize = 20_000_000;
+/// Shortest flight in steps, so that no short piece of a field is skipped.
+const FEWEST_STEPS: f64 = 200.0;
+/// Largest change of drive and response in a step, over their size [1].
+const LARGEST_CHANGE: f64 = 0.05;
+/// Displacement by a change of the drive that need not be looked at, over the diameter [1].
+const DISPLACEMENT: f64 = 0.01;
+/// Halvings of a step.
+const HALVINGS: u32 = 40;
+/// First stream of the draws of a path; those of impacts are far below.
+const STREAMS: u64 = 1 << 40;
+/// Streams of a step: two of the walk, three of Brownian motion, one of the bridge.
+const STREAMS_PER_STEP: u64 = 8;
+
+/// The walk of the gas's fluctuation along the path of a particle.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Walk {
+    random: ImpactRng,
+    /// Steps so far.
+    steps: u64,
+    /// Standard normal numbers.
+    values: [f64; 3],
+}
+
+impl Walk {
+    /// At the start of a particle.
+    pub(super) fn new(random: ImpactRng) -> Self {
+        let mut walk = Self { random, steps: 0, values: [0.0; 3] };
+        walk.values = walk.draws(0);
+        walk.steps = 1;
+        walk
+    }
+
+    fn normal(&self, stream: u64) -> [f64; 2] {
+        self.random.normal(STREAMS + STREAMS_PER_STEP * self.steps + stream)
+    }
+
+    /// Three standard normal numbers of this step.
+    fn draws(&self, stream: u64) -> [f64; 3] {
+        let ([one, two], [three, _]) = (self.normal(stream), self.normal(stream + 1));
+        [one, two, three]
+    }
+}
+
+/// A particle with what disperses it.
+#[derive(Debug)]
+pub(super) struct Dispersed<'a> {
+    pub motion: &'a ParticleMotion<'a>,
+    pub surfaces: &'a [Surface],
+    /// Thermal conductivity of the particle [W/(m K)].
+    pub conductivity: f64,
+}
+
+/// The gas at a place and what it does to a particle there.
+struct Place {
+    gas: GasState,
+    turbulence: Option<GasTurbulence>,
+    rates: Rates,
+    /// Acceleration of weight and thermophoresis [m/s²].
+    pushed: Vector3<f64>,
+}
+
+/// A path under a drive that changes linearly.
+#[derive(Debug, Clone, Copy)]
+struct Path {
+    start: ParticleState,
+    /// Drive at the start [m/s] and its change [m/s²].
+    drive: [Vector3<f64>; 2],
+    response: f64,
+    /// Change of temperature at the start [K/s], rate of exchange [1/s], change of conversion [1/s].
+    heat: [f64; 3],
+    /// Brownian displacement [m] and velocity [m/s] at the end of the `duration` [s].
+    brownian: [Vector3<f64>; 2],
+    duration: f64,
+}
+
+impl Path {
+    fn at(&self, time: f64) -> ParticleState {
+        let [drive, change] = self.drive;
+        let decayed = -(-self.response * time).exp_m1();
+        let lag = change / self.response;
+        let off = velocity(&self.start) - drive + lag;
+        let share = time / self.duration;
+        let place = position(&self.start)
+            + (drive - lag + 0.5 * time * change) * time
+            + off * (decayed / self.response)
+            + self.brownian[0] * share;
+        let speed = drive + change * time - lag + off * (1.0 - decayed) + self.brownian[1] * share;
+        let [heating, exchange, conversion] = self.heat;
+        let warmed = if exchange > 0.0 { -(-exchange * time).exp_m1() / exchange } else { time };
+        let converted = (self.start[CONVERSION] + conversion * time).min(self.start[CONVERSION].max(1.0));
+        state(&place, &speed, self.start[TEMPERATURE] + heating * warmed, converted)
+    }
+}
+
+impl Dispersed<'_> {
+    /// Follows a particle as [`super::flight::fly`] does, and its walk.
+    pub(super) fn fly(
+        &self,
+        [mut now, until]: [f64; 2],
+        start: &ParticleState,
+        walk: &mut Walk,
+        stays: &mut StayTimes,
+    ) -> Result<FlightEnd, SimulationError> {
+        let (mut here, mut longest) = (*start, (until - now) / FEWEST_STEPS);
+        for _ in 0..STEP_LIMIT {
+            if until - now <= 1e-14 * until.abs() {
+                return Ok(FlightEnd { time: until, state: here, surface: None });
+            }
+            let place = self.place(&here, walk);
+            let mut path = self.path(&here, &place, longest.min(until - now), walk);
+            let spread = self.add_brownian(&mut path, &place, walk);
+            longest = (2.0 * path.duration).min(until / FEWEST_STEPS);
+            let step = Step { times: [now, now + path.duration], states: [here, path.at(path.duration)] };
+            if !step.states[1].iter().all(|value| value.is_finite()) {
+                return Err(SimulationError::NotFinite);
+            }
+            let mut at = |time| path.at(time - now);
+            let touched = contact(&step, &mut at, self.surfaces, &self.motion.body)
+                .or_else(|| spread.and_then(|spread| self.bridge(&step, &path, &spread, walk)));
+            let (time, after) = touched.map_or_else(|| step.end(), |end| (end.time, end.state));
+            stays.add(&step, &mut at, self.surfaces, &self.motion.body, (time, after));
+            self.advance(walk, &after, time - now);
+            if let Some(end) = touched {
+                return Ok(end);
+            }
+            (now, here) = (time, after);
+        }
+        Err(SimulationError::TooManySteps(STEP_LIMIT))
+    }
+
+    /// The gas and the drive at a state.
+    fn place(&self, here: &ParticleState, walk: &Walk) -> Place {
+        let (motion, at) = (self.motion, position(here));
+        let mut gas = motion.gas.at(&at);
+        let turbulence = motion.gas.turbulence.and_then(|law| law.at(self.surfaces, &at, &gas));
+        if let Some(turbulence) = &turbulence {
+            gas.velocity += Vector3::from(turbulence.velocity(walk.values));
+        }
+        let rates = motion.rates(here, &gas);
+        let pushed = rates.weight + self.thermophoresis(here, &gas);
+        Place { gas, turbulence, rates, pushed }
+    }
+
+    /// Acceleration by thermophoresis [m/s²].
+    fn thermophoresis(&self, here: &ParticleState, gas: &GasState) -> Vector3<f64> {
+        if !self.motion.gas.thermophoresis {
+            return Vector3::zeros();
+        }
+        let (body, conversion) = (&self.motion.body, here[CONVERSION]);
+        let GasState { temperature, density, viscosity, conductivity, mean_free_path, .. } = *gas;
+        let thermal = ThermalGas { temperature, density, viscosity, conductivity, mean_free_path };
+        let force =
+            thermophoresis::force_over_gradient(&thermal, body.diameter_at(conversion), self.conductivity);
+        self.motion.gas.temperature_gradient(&position(here)) * (force / body.mass_at(conversion))
+    }
+
+    /// The path from a state, at most `longest` [s] long.
+    fn path(&self, here: &ParticleState, place: &Place, longest: f64, walk: &Walk) -> Path {
+        let lasting = place.turbulence.map_or(f64::INFINITY, |turbulence| turbulence.longest_step());
+        let body = &self.motion.body;
+        let rates = &place.rates;
+        let begin = place.gas.velocity + place.pushed / rates.response;
+        let mut path = Path {
+            start: *here,
+            drive: [begin, Vector3::zeros()],
+            response: rates.response,
+            heat: [rates.heating, rates.exchange, rates.conversion],
+            brownian: [Vector3::zeros(); 2],
+            duration: longest.min(lasting),
+        };
+        for _ in 0..HALVINGS {
+            let end = self.place(&path.at(path.duration), walk);
+            let drive = end.gas.velocity + end.pushed / rates.response;
+            let change = drive - begin;
+            let moved = 0.5 * change.norm() * path.duration;
+            let is_even = change.norm() <= LARGEST_CHANGE * drive.norm().max(begin.norm());
+            path.drive[1] = change / path.duration;
+            // The slip of the first guess would be that of a particle that has not followed the gas.
+            let response = self.motion.rates(&path.at(path.duration), &end.gas).response;
+            let keeps_response = (response - rates.response).abs() <= LARGEST_CHANGE * rates.response;
+            if keeps_response && (is_even || moved <= DISPLACEMENT * body.diameter) {
+                path.response = 0.5 * (rates.response + response);
+                return path;
+            }
+            path.duration *= 0.5;
+            path.drive[1] = Vector3::zeros();
+        }
+        path
+    }
+
+    /// Adds Brownian motion to a path; `None` in a gas without.
+    fn add_brownian(&self, path: &mut Path, place: &Place, walk: &Walk) -> Option<BrownianStep> {
+        let motion = self.motion;
+        if !motion.gas.brownian {
+            return None;
+        }
+        let mass = motion.body.mass_at(path.start[CONVERSION]);
+        let step = BrownianStep::new(place.gas.temperature, mass, 1.0 / path.response, path.duration);
+        for axis in 0..3 {
+            let [displacement, speed] = step.drawn(walk.normal(2 + axis as u64));
+            path.brownian[0][axis] = displacement;
+            path.brownian[1][axis] = speed;
+        }
+        Some(step)
+    }
+
+    /// The contact with a wall in between, drawn for a step that begins and ends in front of it.
+    fn bridge(&self, step: &Step, path: &Path, spread: &BrownianStep, walk: &Walk) -> Option<FlightEnd> {
+        let body = &self.motion.body;
+        for (index, surface) in self.surfaces.iter().enumerate() {
+            if !matches!(surface.kind, SurfaceKind::Wall { .. }) {
+                continue;
+            }
+            let gap = |state: &ParticleState| {
+                surface.gap(&position(state), body.diameter_at(state[CONVERSION])).max(0.0)
+            };
+            let [begin, end] = step.states.each_ref().map(gap);
+            let stream = STREAMS + STREAMS_PER_STEP * walk.steps + 5;
+            let probability = spread.touch_probability([begin, end]);
+            // Two walls that near each other are no case of a prescribed field: one draw serves all.
+            if probability <= walk.random.uniform(stream) {
+                continue;
+            }
+            let time = path.duration * begin / (begin + end).max(f64::MIN_POSITIVE);
+            let mut touching = path.at(time);
+            let inward = surface.shape.normal(&position(&touching));
+            let too_far = surface.gap(&position(&touching), body.diameter_at(touching[CONVERSION]))
+                - 0.5 * NEAR * body.diameter;
+            let there = position(&touching) - inward * too_far;
+            if surface.shape.covers(&there) {
+                touching.fixed_rows_mut::<3>(0).copy_from(&there);
+                return Some(FlightEnd { time: step.times[0] + time, state: touching, surface: Some(index) });
+            }
+        }
+        None
+    }
+
+    /// Takes the walk on by a step that ended at a state.
+    fn advance(&self, walk: &mut Walk, after: &ParticleState, duration: f64) {
+        let motion = self.motion;
+        let (at, conversion) = (position(after), after[CONVERSION]);
+        let gas = motion.gas.at(&at);
+        if let Some(turbulence) = motion.gas.turbulence.and_then(|law| law.at(self.surfaces, &at, &gas)) {
+            let (diameter, density) =
+                (motion.body.diameter_at(conversion), motion.body.density_at(conversion));
+            let slip = drag::slip_factor(gas.mean_free_path, diameter);
+            let relaxation = slip / drag::response_rate(0.0, gas.viscosity, density, diameter);
+            walk.values = turbulence.advance(walk.values, relaxation, duration, walk.draws(0));
+        }
+        walk.steps += 1;
+    }
+}
