@@ -50,6 +50,9 @@ impl Data {
             rows.map(|(up, down)| (up.mean() - down.mean()) / (2.0 * widths)).collect()
         };
         let changes: Vec<Vec<f64>> = moved.iter().map(change).collect();
+        if changes.is_empty() {
+            return;
+        }
         let weights = vec![1.0; self.experiments];
         let slopes = self.slopes(base, &self.weighted(&self.measured, &weights));
         let information = normal_matrix(&changes, &slopes);
@@ -87,7 +90,8 @@ impl Data {
             vector += &row * (residual / variance);
             matrix += &row * row.transpose() / variance;
         }
-        let Some(root) = matrix.cholesky() else {
+        let root = if count > 0 { matrix.cholesky() } else { None };
+        let Some(root) = root else {
             return CaseFit { chi_square, errors: vec![[0.0, 1.0]; count], carried: vec![0.0; count] };
         };
         let best = root.solve(&vector);
