@@ -5,7 +5,7 @@ use std::ffi::{CStr, c_char};
 use libloading::Library;
 use nearwall::c_api::{
     NW_OK, nw_deposit, nw_deposit_losses, nw_deposit_source, nw_deposit_surroundings, nw_impact, nw_impacts,
-    nw_model, nw_outcome, nw_outcomes, nw_wall_cooling, nw_wall_heat,
+    nw_model, nw_outcome, nw_outcomes, nw_walk, nw_wall_cooling, nw_wall_heat,
 };
 use nearwall::{Impact, ImpactRng, Outcome};
 
