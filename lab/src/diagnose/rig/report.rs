@@ -120,59 +120,18 @@ impl RigFindings<'_> {
     /// # Errors
     /// Why an impact cannot be decided.
     pub fn record(self, file: &RigMeasurements, options: &Options) -> Result<RigDiagnosis, PredictionError> {
-        let Self { study, choice, held_out, .. } = &self;
-        let all = vec![1.0; study.data.experiments];
+        let Self { study, choice, .. } = &self;
         let base = &study.table.base;
         let model = Model::from_toml("extended.toml", &self.text).map_err(SettingError::from)?;
         let extended = predict_file(study, &model, &choice.additions())?;
-        let parameters = choice.named.iter().map(|one| one.addition.axes.len()).sum();
-        let fit = Fit {
-            base: self.fit_test(base, 0, choice.structure[0]),
-            extended: self.fit_test(&extended, parameters, choice.structure[1]),
-            largest: self.largest(base),
-        };
-        let (findings, calibration) = self.found()?;
-        let gains: Vec<_> = held_out.iter().flat_map(|held_out| held_out.gains(study)).collect();
-        let first = findings.first().map_or("", |finding| finding.observable);
-        let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
-        let nothing = choice.named.is_empty() && self.refuted.is_empty();
-        let mut diagnosis = Diagnosis {
-            schema: "nearwall.diagnosis/2",
-            seed: options.seed,
-            level: options.level,
-            rows: Rows {
-                read: file.read,
-                used: file.read - file.rejected.len(),
-                held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
-                rejected: file.rejected.clone(),
-                ..Rows::default()
-            },
-            fit,
-            findings,
-            explanations: choice.explanations.record(),
-            undecided: if nothing { choice.explanations.undecided() } else { Vec::new() },
-            refuted: self.refuted.clone(),
-            calibration,
-            not_examined: not_examined(
-                study.forward.base(0),
-                |input| range(study.forward, input),
-                "over the impacts",
-            ),
-            gain,
-            gains,
-            extended_model: "extended.toml",
-            ..Diagnosis::default()
-        };
-        if study.forward.case_numbers().is_empty() {
-            diagnosis.not_examined.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
-        }
+        let mut diagnosis = self.diagnosis(file, options, &extended)?;
         let counts = [study.data.experiments, study.data.readings.len()];
         let (parties, blame) = (Parties::of(choice), blame::blame(study, choice)?);
         diagnosis.verdict = verdict(&diagnosis, counts, (&parties, &blame));
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
         }
-        let scatter = study.data.scatter(&extended, &all);
+        let scatter = study.data.scatter(&extended, &vec![1.0; study.data.experiments]);
         Ok(RigDiagnosis {
             diagnosis,
             readings: self.rows(base, &extended, &scatter),
@@ -185,6 +144,57 @@ impl RigFindings<'_> {
             extended: self.text,
             extended_case: self.extended_case,
             draws: self.draws,
+        })
+    }
+
+    /// The record without its verdict; `extended` are the predictions of the written model.
+    fn diagnosis(
+        &self,
+        file: &RigMeasurements,
+        options: &Options,
+        extended: &[PredictedReading],
+    ) -> Result<Diagnosis, PredictionError> {
+        let Self { study, choice, held_out, .. } = self;
+        let base = &study.table.base;
+        let parameters = choice.named.iter().map(|one| one.addition.axes.len()).sum();
+        let fit = Fit {
+            base: self.fit_test(base, 0, choice.structure[0]),
+            extended: self.fit_test(extended, parameters, choice.structure[1]),
+            largest: self.largest(base),
+        };
+        let (findings, calibration) = self.found()?;
+        let gains: Vec<_> = held_out.iter().flat_map(|held_out| held_out.gains(study)).collect();
+        let first = findings.first().map_or("", |finding| finding.observable);
+        let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
+        let nothing = choice.named.is_empty() && self.refuted.is_empty();
+        let range_of = |input: &str| range(study.forward, input);
+        let mut left_out = not_examined(study.forward.base(0), range_of, "over the impacts");
+        if study.forward.case_numbers().is_empty() {
+            left_out.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
+        }
+        let rows = Rows {
+            read: file.read,
+            used: file.read - file.rejected.len(),
+            held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
+            rejected: file.rejected.clone(),
+            ..Rows::default()
+        };
+        Ok(Diagnosis {
+            schema: "nearwall.diagnosis/2",
+            seed: options.seed,
+            level: options.level,
+            rows,
+            fit,
+            findings,
+            explanations: choice.explanations.record(),
+            undecided: if nothing { choice.explanations.undecided() } else { Vec::new() },
+            refuted: self.refuted.clone(),
+            calibration,
+            not_examined: left_out,
+            gain,
+            gains,
+            extended_model: "extended.toml",
+            ..Diagnosis::default()
         })
     }
 
