@@ -556,7 +556,9 @@ module nearwall
       integer(c_int32_t) :: nw_walk_advance
     end function nw_walk_advance
 
-    function nw_thermophoresis(temperature, density, viscosity, conductivity, mean_free_path, diameter, particle_conductivity, force) bind(c)
+    function nw_thermophoresis( &
+        temperature, density, viscosity, conductivity, mean_free_path, diameter, particle_conductivity, &
+        force) bind(c)
       import
       real(c_double), value :: temperature
       real(c_double), value :: density

@@ -1,5 +1,6 @@
 //! Dimensionless products of columns whose units are known, as `v_t/v_n` or `tau v_n/d` (Buckingham 1914): the simplest,
-//! of two and three columns, with exponents in halves up to 2.
+//! of two and three columns, with exponents in halves up to 2. One of them at least is no input: for inputs alone the
+//! library has its groups.
 
 use super::data_split::{ColumnKind, Covariate};
 use crate::dataset::{ColumnValues, UnitPowers, unit_powers};
@@ -57,7 +58,9 @@ pub(super) fn products(columns: &[Covariate]) -> Vec<ColumnProduct> {
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b]));
     let triples =
         (0..count).flat_map(|a| (a + 1..count).flat_map(move |b| (b + 1..count).map(move |c| vec![a, b, c])));
-    for chosen in pairs.chain(triples) {
+    let has_further =
+        |chosen: &Vec<usize>| chosen.iter().any(|place| !columns[factors[*place].place].is_input());
+    for chosen in pairs.chain(triples).filter(has_further) {
         let of: Vec<&Factor> = chosen.iter().map(|place| &factors[*place]).collect();
         // What two of three make without the third is a product of its own.
         let has_smaller = of.len() > 2
@@ -85,7 +88,6 @@ fn factor(columns: &[Covariate], place: usize) -> Option<Factor> {
     let ColumnValues::Numbers(numbers) = &column.values else { return None };
     let powers = unit_powers(column.unit).filter(|powers| *powers != UnitPowers::default())?;
     let usable = !column.is_group() && numbers.iter().all(|number| *number >= 0.0);
-    // A product with an input of a named quantity takes it from the impact.
     let has_zero = numbers.contains(&0.0);
     usable.then_some(Factor { place, powers, has_zero })
 }

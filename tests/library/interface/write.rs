@@ -90,8 +90,13 @@ fn size(header: &Header, fields: &[Field]) -> usize {
 
 fn fortran_function(header: &Header, Function { name, result, arguments }: &Function) -> String {
     let kind = if result == "void" { "subroutine" } else { "function" };
-    let names = wrapped(arguments.iter().map(|argument| argument.name.clone()), "");
-    let mut text = format!("    {kind} {name}({names}) bind(c)\n      import\n");
+    let names: Vec<String> = arguments.iter().map(|argument| argument.name.clone()).collect();
+    let mut text = format!("    {kind} {name}({}) bind(c)\n      import\n", names.join(", "));
+    // A line of Fortran ends at 132 characters.
+    if text.lines().any(|line| line.len() > 120) {
+        let names = wrapped(names, "        ").replace('\n', " &\n");
+        text = format!("    {kind} {name}( &\n{names}) bind(c)\n      import\n");
+    }
     for Field { name, kind, .. } in arguments {
         let (declared, shape) = match target(kind) {
             None => (format!("{}, value", value(kind)[0]), ""),
