@@ -220,8 +220,10 @@ pub fn key(bytes: &mut Bytes<'_>) {
 
 /// A walk with any inputs.
 pub fn walk(bytes: &mut Bytes<'_>) {
-    let mut walk =
-        nw_walk { seed: bytes.word(), key: bytes.word(), step: bytes.word(), ..nw_walk::default() };
+    let mut walk = nw_walk::default();
+    // SAFETY: a whole walk.
+    assert_eq!(unsafe { nw_walk_init(&raw mut walk) }, NW_OK);
+    [walk.seed, walk.key, walk.step] = std::array::from_fn(|_| bytes.word());
     for value in [
         &mut walk.duration,
         &mut walk.relaxation_time,
