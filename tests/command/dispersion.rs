@@ -2,12 +2,12 @@
 //! and published deposition.
 
 use std::f64::consts::PI;
-use std::path::Path;
 
 use nearwall::transport::brownian::BOLTZMANN;
 use nearwall::transport::thermophoresis;
-use nearwall_lab::results::standalone::run;
-use nearwall_lab::simulate::{Case, Fate, Trajectory};
+use nearwall_lab::simulate::{Fate, Trajectory};
+
+use crate::simulate::{AIR, trajectories_of};
 
 /// Every particle that touches a wall stays there.
 const MODEL: &str = r#"
@@ -23,22 +23,13 @@ model = "constant"
 e_t = 0
 "#;
 
-const AIR: &str = "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005";
 /// Kinematic viscosity of [`AIR`] [m²/s].
 const VISCOSITY: f64 = 1.5e-5;
 const RADIUS: f64 = 0.01;
 const FRICTION_VELOCITY: f64 = 0.3;
 
 fn trajectories(text: &str) -> Vec<Trajectory> {
-    let mut case =
-        Case::from_toml("case.toml", text, Path::new(".")).unwrap_or_else(|error| panic!("{error}"));
-    let mut trajectories = Vec::new();
-    run::<String>(&mut case, |_, _, _, trajectory| {
-        trajectories.push(trajectory.clone());
-        Ok(())
-    })
-    .unwrap();
-    trajectories
+    trajectories_of(text).0
 }
 
 /// A turbulent pipe of `y+` = 200 from wall to axis, filled evenly with particles.

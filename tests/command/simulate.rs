@@ -28,7 +28,7 @@ model = "constant"
 e_t = 0.8
 "#;
 
-const AIR: &str = "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005";
+pub const AIR: &str = "density = 1.2\nviscosity = 1.8e-5\nconductivity = 0.026\nheat_capacity = 1005";
 const THIN: &str = "density = 1e-9\nviscosity = 1e-15\nconductivity = 1e-9\nheat_capacity = 1000";
 
 /// A case of one wall, the plane z = 0.
@@ -60,7 +60,7 @@ fn trajectories(case: &mut Case) -> (Vec<Trajectory>, Vec<Run>) {
     (trajectories, runs.unwrap())
 }
 
-fn trajectories_of(text: &str) -> (Vec<Trajectory>, Vec<Run>) {
+pub fn trajectories_of(text: &str) -> (Vec<Trajectory>, Vec<Run>) {
     trajectories(&mut case(text))
 }
 

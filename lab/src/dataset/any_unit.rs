@@ -32,7 +32,7 @@ const SYMBOLS: [(&str, [f64; 2], UnitPowers); 20] = [
     ("W", [1.0, 1.0], [1, 2, -3, 0]),
 ];
 
-/// Prefixes of symbols of one letter that are no multiples themselves, and of `Hz` and `Pa`: factor and divisor.
+/// Prefixes with their factor and divisor.
 const PREFIXES: [(&str, [f64; 2]); 7] = [
     ("n", [1.0, 1e9]),
     ("u", [1.0, 1e6]),
@@ -42,7 +42,11 @@ const PREFIXES: [(&str, [f64; 2]); 7] = [
     ("M", [1e6, 1.0]),
     ("G", [1e9, 1.0]),
 ];
+/// The symbols that take them.
 const TAKE_PREFIXES: [&str; 8] = ["m", "g", "s", "Hz", "N", "Pa", "J", "W"];
+
+/// Largest power of a symbol: a larger number is no power.
+const LARGEST_POWER: i32 = 9;
 
 /// The SI units that columns are given in.
 const SI_UNITS: [&str; 22] = [
@@ -67,7 +71,7 @@ impl AnyUnit {
         }
         let ([factor, divisor], powers) = product(name)?;
         let si = SI_UNITS.into_iter().find(|si| unit_powers(si) == Some(powers))?;
-        // 1/1000 of a millimetre is one exact division; factors of both sides are not mixed.
+        // Factor and divisor stay apart: 75/1e6 is 75e-6 exactly, 75 * 1e-6 is not.
         Some(Self { conversion: scaled("", factor, divisor), si })
     }
 }
@@ -108,6 +112,9 @@ fn power(text: &str) -> Option<([f64; 2], UnitPowers, i32)> {
     let (symbol, exponent) = text.split_at(end);
     let exponent = exponent.strip_prefix('^').unwrap_or(exponent);
     let exponent = if exponent.is_empty() { 1 } else { exponent.parse().ok()? };
+    if !(-LARGEST_POWER..=LARGEST_POWER).contains(&exponent) {
+        return None;
+    }
     let known = |name: &str| SYMBOLS.iter().find(|(own, ..)| *own == name);
     if let Some((_, scale, powers)) = known(symbol) {
         return Some((*scale, *powers, exponent));
@@ -142,7 +149,7 @@ mod tests {
         assert_eq!(si("W/(m K)", 2.0), Some((2.0, "W/(m K)")));
         assert_eq!(si("%", 40.0), Some((0.4, "1")));
         assert_eq!(si("min", 2.0), Some((120.0, "s")));
-        for unknown in ["", "W/m K", "of the bed", "A", "m/s/s", "weeks"] {
+        for unknown in ["", "W/m K", "N2000000000", "s-2147483648", "of the bed", "A", "m/s/s", "weeks"] {
             assert_eq!(si(unknown, 1.0), None, "{unknown}");
         }
         assert!(SI_UNITS.iter().all(|name| unit_powers(name).is_some()));

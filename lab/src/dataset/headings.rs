@@ -85,10 +85,13 @@ pub(super) fn find(
 /// whole heading.
 pub(super) fn further<'a>(heading: &'a str, headers: &csv::StringRecord) -> (&'a str, Option<AnyUnit>) {
     let Heading { name, unit, .. } = Heading::of(heading);
-    let is_free = ExtraInput::refusal(name).is_none()
-        && names().all(|(own, _)| own != name)
-        && headers.iter().filter(|other| Heading::of(other).name == name).count() == 1;
-    match unit.filter(|_| is_free).and_then(AnyUnit::of) {
+    // Other headings are looked at only for one with a unit: a file may have thousands.
+    let is_free = || {
+        ExtraInput::refusal(name).is_none()
+            && names().all(|(own, _)| own != name)
+            && headers.iter().filter(|other| Heading::of(other).name == name).count() == 1
+    };
+    match unit.and_then(AnyUnit::of).filter(|_| is_free()) {
         Some(unit) => (name, Some(unit)),
         None => (heading, None),
     }

@@ -1,4 +1,4 @@
-//! Dimensionless products of columns whose units are known, as `v_t/v_n` or `tau v_n/d` (Buckingham 1914): the simplest,
+//! Dimensionless products of columns whose units are known, as `d/gap` or `v_n tau/d` (Buckingham 1914): the simplest,
 //! of two and three columns, with exponents in halves up to 2. One of them at least is no input: for inputs alone the
 //! library has its groups.
 
@@ -7,6 +7,8 @@ use crate::dataset::{ColumnValues, UnitPowers, unit_powers};
 
 /// Most products of a file.
 const MOST_PRODUCTS: usize = 12;
+/// Most columns of a file that are looked at: triples of hundreds would take minutes.
+const MOST_FACTORS: usize = 24;
 /// Largest exponent [halves].
 const LARGEST: i32 = 4;
 
@@ -52,7 +54,8 @@ impl ColumnProduct {
 
 /// The simplest dimensionless products of the columns.
 pub(super) fn products(columns: &[Covariate]) -> Vec<ColumnProduct> {
-    let factors: Vec<Factor> = (0..columns.len()).filter_map(|place| factor(columns, place)).collect();
+    let factors = (0..columns.len()).filter_map(|place| factor(columns, place));
+    let factors: Vec<Factor> = factors.take(MOST_FACTORS).collect();
     let mut found: Vec<(i32, ColumnProduct)> = Vec::new();
     let count = factors.len();
     let pairs = (0..count).flat_map(|a| (a + 1..count).map(move |b| vec![a, b]));

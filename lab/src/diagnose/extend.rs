@@ -100,7 +100,7 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
     curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid_over(data, curve))
 }
 
-/// A closed form as an effect.
+/// A closed form as an effect, with the intervals of its parameters.
 fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &str) -> Table {
     let mut table = Table::from_iter([("kind", value("fitted-form")), ("on", value(on))]);
     table.insert("form", value(closed.info.name));

@@ -4,6 +4,7 @@ use toml_edit::{DocumentMut, Item, Value};
 
 use super::reading::OtherReading;
 use crate::dataset::{Measurement, Reading};
+use crate::simulate::number_of;
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
 
@@ -185,8 +186,7 @@ fn scaled(document: &DocumentMut, group: &[String], key: &str, factor: f64) -> O
 
 /// Multiplies a number, or the values of a table over temperature.
 fn multiply(item: &mut Item, factor: f64) -> bool {
-    let product =
-        |value: &Value| value.as_float().or_else(|| value.as_integer().map(|i| i as f64)).map(|n| n * factor);
+    let product = |value: &Value| number_of(value).map(|number| number * factor);
     if let Some(number) = item.as_value().and_then(product) {
         *item = toml_edit::value(number);
         return true;

@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
-use super::case_text::find_mut;
+use super::case_text::{change_value, find_mut};
+use crate::simulate::number_of;
 
 /// How a number changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -194,23 +195,10 @@ impl CaseNumber {
     fn change(&self, item: &mut Item, with: &dyn Fn(f64) -> f64) {
         // Beyond the normal of the wall the angle grows less again.
         let within = |value: f64| if self.unit == "degrees" && value > 90.0 { 180.0 - value } else { value };
-        let changed = |value: &mut Value| {
-            if let Some(number) = number_of(value) {
-                let decor = value.decor().clone();
-                *value = Value::from(within(with(number)));
-                *value.decor_mut() = decor;
-            }
-        };
-        match item.as_value_mut() {
-            Some(Value::Array(list)) => list.iter_mut().for_each(changed),
-            Some(value) => changed(value),
-            None => {}
+        if let Some(value) = item.as_value_mut() {
+            change_value(value, &|number| within(with(number)));
         }
     }
-}
-
-fn number_of(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// The end of the key and the value of the middle of a quantity, or of its spread.

@@ -12,7 +12,7 @@ use std::path::Path;
 use toml_edit::{ArrayOfTables, DocumentMut, Item, TableLike, Value};
 
 use super::case_number::CaseNumber;
-use crate::simulate::{Case, split_errors};
+use crate::simulate::{Case, number_of, split_errors};
 use nearwall::input::{Document, InputError};
 
 /// Why a setting cannot be made.
@@ -210,8 +210,7 @@ impl CaseText {
     /// The number that a setting has in the case, if it is one.
     pub fn number(&self, key: &str) -> Option<f64> {
         let (last, item) = find(&self.document, key)?;
-        let value = item.get(&last)?.as_value()?;
-        value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+        number_of(item.get(&last)?.as_value()?)
     }
 }
 
@@ -246,9 +245,25 @@ fn name_of(table: &dyn TableLike) -> Option<&str> {
 
 /// Sets a dotted key to a cell: a value of TOML, or a text.
 fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), SettingFault> {
+    let value = cell.parse::<Value>().unwrap_or_else(|_| Value::from(cell));
+    let (table, last) = table_mut(document, key)?;
+    table.insert(last, Item::Value(value));
+    Ok(())
+}
+
+/// The item with a dotted key.
+pub(super) fn find_mut<'a>(document: &'a mut DocumentMut, key: &str) -> Option<&'a mut Item> {
+    let (table, last) = table_mut(document, key).ok()?;
+    table.get_mut(last)
+}
+
+/// The table of a dotted key and the key's last part.
+fn table_mut<'a, 'k>(
+    document: &'a mut DocumentMut,
+    key: &'k str,
+) -> Result<(&'a mut dyn TableLike, &'k str), SettingFault> {
     let mut parts: Vec<&str> = key.split('.').collect();
     let last = parts.pop().unwrap_or_default();
-    let value = cell.parse::<Value>().unwrap_or_else(|_| Value::from(cell));
     let mut table: &mut dyn TableLike = document.as_table_mut();
     let mut parts = parts.into_iter();
     while let Some(part) = parts.next() {
@@ -261,22 +276,18 @@ fn set(document: &mut DocumentMut, key: &str, cell: &str) -> Result<(), SettingF
             item => item.as_table_like_mut().ok_or_else(|| SettingFault::Value(part.to_owned()))?,
         };
     }
-    table.insert(last, Item::Value(value));
-    Ok(())
+    Ok((table, last))
 }
 
-/// The item with a dotted key.
-pub(super) fn find_mut<'a>(document: &'a mut DocumentMut, key: &str) -> Option<&'a mut Item> {
-    let (path, last) = key.rsplit_once('.')?;
-    let mut table: &mut dyn TableLike = document.as_table_mut();
-    let mut parts = path.split('.');
-    while let Some(part) = parts.next() {
-        table = match table.get_mut(part)? {
-            Item::ArrayOfTables(tables) => named(tables, part, parts.next()).ok()?,
-            item => item.as_table_like_mut()?,
-        };
+/// Changes a number, or all numbers of a list, and keeps what stands around them.
+pub(super) fn change_value(value: &mut Value, with: &dyn Fn(f64) -> f64) {
+    if let Some(number) = number_of(value) {
+        let decor = value.decor().clone();
+        *value = Value::from(with(number));
+        *value.decor_mut() = decor;
+    } else if let Value::Array(list) = value {
+        list.iter_mut().for_each(|one| change_value(one, with));
     }
-    table.get_mut(last)
 }
 
 /// The table of a list with a name.

@@ -13,7 +13,8 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
-use super::case_text::CaseText;
+use super::case_text::{CaseText, change_value};
+use crate::simulate::number_of;
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
 use nearwall::slag::ash_fusion;
@@ -465,20 +466,6 @@ fn change(item: &mut Item, with: &dyn Fn(f64) -> f64) {
     if let Some(value) = item.as_value_mut() {
         change_value(value, with);
     }
-}
-
-fn change_value(value: &mut Value, with: &dyn Fn(f64) -> f64) {
-    if let Some(number) = number_of(value) {
-        let decor = value.decor().clone();
-        *value = Value::from(with(number));
-        *value.decor_mut() = decor;
-    } else if let Value::Array(list) = value {
-        list.iter_mut().for_each(|one| change_value(one, with));
-    }
-}
-
-fn number_of(value: &Value) -> Option<f64> {
-    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
 }
 
 /// The first number of an item, and whether it is the only one.

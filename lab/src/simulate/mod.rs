@@ -48,7 +48,7 @@ pub use linear_profile::LinearProfile;
 pub use motion::{Body, ParticleMotion, ParticleState, position, state, velocity};
 pub use near_wall::StayTime;
 pub use shrinkage::Shrinkage;
-pub use stated_error::split_errors;
+pub use stated_error::{number_of, split_errors};
 pub use surface::{Surface, SurfaceKind, SurfaceShape};
 pub use tracker::Start;
 pub use trajectory::{Fate, Hit, Trajectory};

@@ -27,6 +27,11 @@ pub fn split_errors(text: &str) -> (String, BTreeMap<String, f64>) {
     (found.text, found.errors)
 }
 
+/// The number that a value is, whole or not.
+pub fn number_of(value: &Value) -> Option<f64> {
+    value.as_float().or_else(|| value.as_integer().map(|whole| whole as f64))
+}
+
 struct Found {
     text: String,
     errors: BTreeMap<String, f64>,
@@ -57,8 +62,11 @@ impl Found {
         let Some((name, error)) = table.get_key_value("error") else {
             return self.table(table, key);
         };
-        let number = error.as_float().or_else(|| error.as_integer().map(|whole| whole as f64));
-        let Some(number) = number.filter(|number| *number > 0.0 && number.is_finite()) else { return };
+        let Some(number) =
+            error.as_value().and_then(number_of).filter(|number| *number > 0.0 && number.is_finite())
+        else {
+            return;
+        };
         let value = table.get("value").and_then(Value::span);
         match (table.span(), value, name.span().zip(error.span())) {
             (Some(whole), Some(value), _) if table.len() == 2 => {
