@@ -120,7 +120,7 @@ fn formulas(findings: &[Finding]) -> String {
 }
 
 /// A probability in words.
-fn probability_words(probability: f64) -> String {
+pub(super) fn probability_words(probability: f64) -> String {
     if probability > 0.995 {
         "probability above 0.99".to_owned()
     } else {

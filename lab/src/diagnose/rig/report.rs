@@ -10,7 +10,7 @@ use super::super::part::{Part, rounded};
 use super::super::record::{
     Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined, Options, Rows,
 };
-use super::super::sentences::{Words, fit_sentence, found, nothing_found};
+use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::blame::{self, Blame, Parties};
@@ -435,7 +435,8 @@ fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> Stri
     let numbers: Vec<String> = case
         .iter()
         .map(|finding| {
-            format!("{} (probability {:.2})", &finding.cause["case:".len()..], finding.probability)
+            let words = probability_words(finding.probability);
+            format!("{} ({words})", &finding.cause["case:".len()..])
         })
         .collect();
     let wrong = match numbers.as_slice() {
