@@ -117,7 +117,10 @@ Foam::vector Foam::nearWallDispersion<CloudType>::update
     walk.seed = seed_;
     walk.key = record.key;
     walk.step = record.step;
-    walk.duration = dt;
+    // Parcels on faces take steps of no length, by rounding, of which ranks
+    // differ: these must not use up draws
+    const bool isStep = dt > 1e-6*owner.solution().trackTime();
+    walk.duration = isStep ? dt : 0;
     walk.relaxation_time = p.rho()*sqr(p.d())/(18*owner.mu()[celli]);
     for (direction i = 0; i < 3; ++i)
     {
@@ -136,7 +139,7 @@ Foam::vector Foam::nearWallDispersion<CloudType>::update
     ++nSteps_;
     if (dt > walk.longest_step) ++nLong_;
 
-    record.step = walk.step;
+    if (isStep || record.step == 0) record.step = walk.step;
     tTurb = record.written();
     UTurb = vector(walk.values[0], walk.values[1], walk.values[2]);
     return Uc + vector(walk.velocity[0], walk.velocity[1], walk.velocity[2]);
