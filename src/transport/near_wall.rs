@@ -81,6 +81,11 @@ impl WallLayer {
         self.distance.max(0.0) * self.friction_velocity / self.kinematic_viscosity
     }
 
+    /// Does the wall change the fluctuations of a core here?
+    pub fn reaches(&self) -> bool {
+        self.distance_plus() < BLEND[1]
+    }
+
     /// The fluctuations at this place; `core` is that of [`WallLayer::friction_velocity`] if it is not known.
     pub(super) fn fluctuations(&self, core: Option<&Core>) -> Fluctuations {
         let (plus, speed) = (self.distance_plus(), self.friction_velocity);
@@ -215,7 +220,8 @@ mod tests {
         let core = Core::uniform(speed * speed / 0.3, speed.powi(3) / (0.41 * wall.distance));
         let ours = core.fluctuation.powi(2) * core.time_scale / 1.5e-5;
         assert!((0.8..1.3).contains(&(ours / (0.41 * plus))), "{ours}");
-        let far = layer(200.0).fluctuations(Some(&core));
+        assert!(layer(99.0).reaches() && !layer(101.0).reaches());
+        let far = layer(101.0).fluctuations(Some(&core));
         far.deviations.into_iter().for_each(|part| assert_relative_eq!(part, core.fluctuation));
         assert_relative_eq!(far.time_scale, core.time_scale);
     }
