@@ -66,6 +66,7 @@ void Foam::nearWallDispersion<CloudType>::warnOfLongSteps()
     if (20*tooLong <= all) return;
 
     isWarned_ = true;
+    if (!Pstream::master()) return;
     WarningInFunction
         << "Cloud " << this->owner().name() << ": " << (100*tooLong)/all
         << " % of the parcels' steps are longer than a fifth of the time scale"

@@ -197,6 +197,7 @@ END
 case_dispersed() {
     local kind c walking force
     for kind in $clouds_all; do
+        unset thermoClass mixtureClass gasT prgh
         build "$kind" "$work/dispersed-$kind" || return
         [ "$kind" = mppic ] || turbulent_wall 0
         force="nearWallThermophoresis { conductivity 0.5; }"
@@ -208,7 +209,7 @@ case_dispersed() {
         solve "dispersed/$kind" run "$solver" || continue
         for c in $clouds; do
             walking="$(values "0.01/lagrangian/$c/tTurb" | awk -v mppic="$([ "$kind" != mppic ] || echo 1)" '
-                { n++; w += mppic ? $1 == 0 : $1 > 4.5e15 } END { print n > 0 && n == w ? n : "only " w + 0 " of " n + 0 }')"
+                { n++; w += mppic ? ($1 == 0) : ($1 > 4.5e15) } END { print((n && n == w) ? n : "only " w + 0 " of " n + 0) }')"
             case "$walking" in only*) bad "dispersed/$kind/$c" "$walking parcels walk" ;; *) ok "dispersed/$kind/$c ($walking parcels)" ;; esac
         done
     done
