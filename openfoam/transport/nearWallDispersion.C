@@ -94,6 +94,28 @@ void Foam::nearWallDispersion<CloudType>::cacheFields(const bool store)
 
 
 template<class CloudType>
+void Foam::nearWallDispersion<CloudType>::advance
+(
+    nw_walk& walk,
+    const parcelType& p,
+    const label celli
+)
+{
+    if (nw_walk_advance(&walk) != NW_OK)
+    {
+        FatalErrorInFunction
+            << "Cloud " << this->owner().name() << ", cell " << celli
+            << ": the gas or a parcel is not a number, or negative: k "
+            << (*this->kPtr_)[celli] << ", epsilon "
+            << (*this->epsilonPtr_)[celli] << ", velocity "
+            << vector(walk.flow[0], walk.flow[1], walk.flow[2])
+            << ", diameter " << p.d() << "." << exit(FatalError);
+    }
+    ++nSteps_;
+}
+
+
+template<class CloudType>
 Foam::vector Foam::nearWallDispersion<CloudType>::update
 (
     const scalar dt,
@@ -129,15 +151,7 @@ Foam::vector Foam::nearWallDispersion<CloudType>::update
         walk.values[i] = UTurb[i];
     }
 
-    if (nw_walk_advance(&walk) != NW_OK)
-    {
-        FatalErrorInFunction
-            << "Cloud " << owner.name() << ": the gas or a parcel at " << place
-            << " is not a number, or negative: k " << (*this->kPtr_)[celli]
-            << ", epsilon " << (*this->epsilonPtr_)[celli] << ", velocity " << Uc
-            << ", diameter " << p.d() << "." << exit(FatalError);
-    }
-    ++nSteps_;
+    advance(walk, p, celli);
     if (dt > walk.longest_step) ++nLong_;
 
     if (isStep || record.step == 0) record.step = walk.step;

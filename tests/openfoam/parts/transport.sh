@@ -89,12 +89,12 @@ fly_channel() { # name folder count relaxation dispersion wall-interaction end [
     solve "$1" run "$solver"
 }
 
-# Within a factor of two of 6e-4 tau+^2 up to 10 and of 0.1 to 0.17 above (Liu and Agarwal 1974)
+# Within a factor of two of 6e-4 tau+^2 up to 10 and of 0.1 to 0.17 above (Liu and Agarwal 1974); at 1 only no more than twice
 case_dispersion() {
     local row
     channel "$work/dispersion" || return
     channel "$work/dispersion-coarse" coarse || return
-    for row in 10:0.06:0.06 30:0.1:0.17 100:0.1:0.17 1000:0.1:0.17 10:0.06:0.06:coarse 100:0.1:0.17:coarse; do
+    for row in 10:0.06:0.06 30:0.1:0.17 100:0.1:0.17 1000:0.1:0.17 1:0:6e-4:coarse 10:0.06:0.06:coarse 100:0.1:0.17:coarse; do
         IFS=: read -ra row <<< "$row"
         deposits "${row[@]}" nearWallDispersion || return
     done
