@@ -80,6 +80,19 @@ scalar readAcceleration(const dictionary& dict)
 }
 
 
+//- The dictionary `shed`; empty without one
+dictionary readShed(const dictionary& dict)
+{
+    if (dict.found("shed") && !dict.isDict("shed"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Key 'shed' must be a dictionary, as in shed { parcels yes; }"
+            << exit(FatalIOError);
+    }
+    return dict.subOrEmptyDict("shed");
+}
+
+
 //- Patches for which the wall model decides; one at least
 labelList patchesWithModel(const dictionary& dict, const List<patchRule>& rules)
 {
@@ -226,10 +239,19 @@ Foam::nearWall::wallMemory::wallMemory
     isThick_(patches_.size(), false),
     fields_(initialFields(cloudName, saved)),
     balance_(mesh, patches_, fields_, saved, folder),
+    heat_(mesh, cloudName, cooledPatches(), saved.subOrEmptyDict("heat"), folder),
+    returning_
+    (
+        readShed(dict), mesh, cloudName, patches_, acceleration_,
+        saved.subOrEmptyDict("returned"), folder
+    ),
     resistance_(rules.size()),
     captured_(rules.size())
 {
-    refuseUnknownKeys(dict, wordList({"voidage", "film", "acceleration"}), "memory");
+    refuseUnknownKeys
+    (
+        dict, wordList({"voidage", "film", "acceleration", "shed"}), "memory"
+    );
     checkCooled();
     for (const label patchi : patches_)
     {
@@ -301,13 +323,14 @@ const Foam::nearWall::wallCooling* Foam::nearWall::wallMemory::condition
 }
 
 
-bool Foam::nearWall::wallMemory::anyCooled() const
+Foam::labelList Foam::nearWall::wallMemory::cooledPatches() const
 {
+    labelList found;
     for (const label patchi : patches_)
     {
-        if (cooled(patchi)) return true;
+        if (cooled(patchi)) found.append(patchi);
     }
-    return false;
+    return found;
 }
 
 
@@ -380,7 +403,7 @@ Foam::nearWall::depositFields Foam::nearWall::wallMemory::initialFields
 {
     depositFields fields
     (
-        mesh_, cloudName, voidage_, anyCooled(), anyProcess("resuspension")
+        mesh_, cloudName, voidage_, cooledPatches().size() > 0, anyProcess("resuspension")
     );
     fields.requireComplete
     (
@@ -492,6 +515,8 @@ Foam::dictionary Foam::nearWall::wallMemory::saved
 {
     dictionary dict(balance_.saved(totals));
     dict.add(keyType(word(fieldNames)), string(fields_.names()));
+    dict.add("heat", savedHeat_);
+    dict.add("returned", savedReturned_);
     return dict;
 }
 
@@ -547,6 +572,17 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
             << " m) cannot be added to the deposit: "
             << nw_status_text(status) << exit(FatalError);
     }
+    returning_.addCaptured(e);
+    scalar heat = 0;
+    if
+    (
+        e.bringsHeat
+     && e.model->heat_brought(e.impact, e.heatCapacity, heat) == NW_OK
+    )
+    {
+        const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
+        heat_.addCaptured(e.patch, e.face, acceleration_*e.mass*heat/area);
+    }
 }
 
 
@@ -575,24 +611,25 @@ void Foam::nearWall::wallMemory::setTemperature(const label patchi)
 }
 
 
-nw_wall_heat Foam::nearWall::wallMemory::recordHeat
+void Foam::nearWall::wallMemory::noteHeat
 (
-    const nw_deposit& d,
     const label patchi,
     const label facei,
-    const nw_wall_cooling& cooling
+    const nw_wall_cooling& cooling,
+    const nw_deposit_losses& crossed,
+    const scalar duration
 )
 {
-    const nw_wall_heat found(heatUnder(d, patchi, cooling));
-    fields_.on(depositFields::heatFlux, patchi)[facei] = found.heat_flux;
-    fields_.on(depositFields::under, patchi)[facei] = found.wall_temperature;
+    const scalar toCoolant = crossed.heat_to_coolant/duration;
+    fields_.on(depositFields::heatFlux, patchi)[facei] = toCoolant;
+    fields_.on(depositFields::under, patchi)[facei] =
+        cooling.coolant_temperature + toCoolant*cooling.wall_resistance;
 
     scalar& resistance = resistance_[patchi][facei];
-    const scalar rise =
-        found.heat_flux*(found.deposit_resistance - resistance);
+    const scalar rise = toCoolant*(crossed.deposit_resistance - resistance);
     if (resistance >= 0) largestRise_ = max(largestRise_, mag(rise));
-    resistance = found.deposit_resistance;
-    return found;
+    resistance = crossed.deposit_resistance;
+    heat_.add(patchi, facei, crossed);
 }
 
 
@@ -613,19 +650,22 @@ Foam::scalar Foam::nearWall::wallMemory::addCaptured
 }
 
 
-void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
+void Foam::nearWall::wallMemory::advance
+(
+    const label i,
+    const scalar before,
+    const scalar duration
+)
 {
     const label patchi = patches_[i];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
     const wallCooling* const cooling = cooled(patchi);
-    const List<nw_wall_cooling> held
-    (
-        cooling ? cooling->cooling() : List<nw_wall_cooling>()
-    );
-    const List<nw_wall_cooling> heating
-    (
-        cooling ? cooling->heating() : List<nw_wall_cooling>()
-    );
+    List<nw_wall_cooling> heating;
+    if (cooling)
+    {
+        heating = cooling->heating();
+        heat_.beginPatch(patchi, *cooling, before, duration);
+    }
     const scalarField& wallTemperature = fields_.on(depositFields::temperature, patchi);
     const patchSurroundings surroundings(*this, patchi);
 
@@ -638,24 +678,19 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
         const scalar captured = addCaptured(d, patchi, facei);
         arrived += captured*area[facei];
 
-        if (cooling)
-        {
-            recordHeat(d, patchi, facei, held[facei]);
-        }
         const scalar slag = d.molten + d.frozen;
-        if
-        (
-            slag > 0
-         || (d.powder > 0 && (cooling || surroundings.losesMass()))
-        )
+        if (cooling || slag > 0 || (d.powder > 0 && surroundings.losesMass()))
         {
             nw_deposit_surroundings around(surroundings.at(facei));
             around.wall_temperature = wallTemperature[facei];
+            if (cooling) heating[facei].further_flux = heatFlux(patchi)[facei];
             const nw_status status =
                 cooling
               ? model_->advance(around, heating[facei], duration, d, here)
               : model_->advance(around, duration, d, here);
             require(status, patchi, "advance");
+            returning_.addLost(i, facei, here);
+            if (cooling) noteHeat(patchi, facei, heating[facei], here, duration);
             for (label k = 0; k < NW_PROCESSES; ++k)
             {
                 lost.mass[k] += here.mass[k]*area[facei];
@@ -695,7 +730,9 @@ void Foam::nearWall::wallMemory::finishStep(const scalar duration)
             balance_.add(i, wallBalance::fromOthers, passed[i].fromOthers);
         }
     }
-    forAll(patches_, i) advance(i, acceleration_*duration);
+    heat_.beginStep(duration);
+    const scalar before = acceleration_*mesh_.time().deltaT0Value();
+    forAll(patches_, i) advance(i, before, acceleration_*duration);
 }
 
 
@@ -714,4 +751,6 @@ void Foam::nearWall::wallMemory::report
         os, fields_, totals, largestRise_, isCooled, bool(film_), time, writeRow
     );
     largestRise_ = 0;
+    savedHeat_ = heat_.report(os, time, writeRow);
+    savedReturned_ = returning_.report(os, time, writeRow);
 }

@@ -231,7 +231,6 @@ void Foam::nearWall::runState::finishMemory
     if (!memory) return;
 
     const Time& time = mesh_.time();
-    memory->finishStep(time.deltaTValue());
     const List<scalarList> totals(memory->totals());
     memory->report(os, totals, time.value(), writeRow);
     if (time.writeTime()) memory->reportThick(os);

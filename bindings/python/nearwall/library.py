@@ -38,6 +38,7 @@ OUT_OF_RANGE = 8
 PANIC = 9
 UNKNOWN_INPUT = 10
 NO_CONDUCTIVITY = 11
+NO_HEAT_CAPACITY = 12
 NSP_NSW = 0
 NSP_SW = 1
 SP_NSW = 2
@@ -94,7 +95,8 @@ class nw_wall_heat(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("reserved", c_uint32), ("surface_temperature", c_double),
         ("wall_temperature", c_double), ("heat_flux", c_double), ("coolant_flux", c_double),
-        ("deposit_resistance", c_double), ("disagreement", c_double)]
+        ("deposit_resistance", c_double), ("disagreement", c_double), ("behind_temperature", c_double),
+        ("behind_resistance", c_double)]
 
 
 class nw_deposit(Structure):
@@ -120,7 +122,9 @@ class nw_deposit_surroundings(Structure):
 
 class nw_deposit_losses(Structure):
     _fields_ = [
-        ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES)]
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES),
+        ("heat_taken", c_double), ("heat_to_coolant", c_double), ("heat_of_fusion", c_double),
+        ("deposit_resistance", c_double)]
 
 
 class nw_walk(Structure):
@@ -158,6 +162,7 @@ FUNCTIONS = {
     "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
     "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
+    "nw_heat_brought": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
     "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),
@@ -603,6 +608,13 @@ class Model:
         decides whether it counts as molten; inputs are numbers, named as in `resolve`."""
         impact = self._impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
+
+    def heat_brought(self, T_w: float, wall: int = 0, heat_capacity: float = 0.0, **inputs: Union[float, str]) -> float:
+        """Heat [J/kg] that a captured particle brings to the surface of T_w [K] that it lands on, with its
+        `heat_capacity` [J/(kg K)], or 0 for that of its material; inputs are numbers, named as in `resolve`."""
+        impact, found = self._impact(wall, {"T_w": T_w, **inputs}), c_double()
+        _check(_library.nw_heat_brought(self._handle, byref(impact), heat_capacity, byref(found)))
+        return found.value
 
     def film_velocity(self, deposit: Deposit, T_w: float, gravity_along: float, heat_flux: Optional[float] = None) -> float:
         """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2. With a `heat_flux` to a
