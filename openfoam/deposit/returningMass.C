@@ -4,6 +4,7 @@
 #include "returningMass.H"
 #include "dictionaryChecks.H"
 #include "mathematicalConstants.H"
+#include "surfaceFields.H"
 #include "wallField.H"
 
 namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "wallHeat.H"
+#include "surfaceFields.H"
 #include "versionCompat.H"
 #include "wallCooling.H"
 #include "wallField.H"
