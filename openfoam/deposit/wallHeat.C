@@ -23,6 +23,34 @@ const wordList names
 //- Parcels for which a face that is hit waits in tau
 const scalar smoothedParcels = 20;
 
+
+//- Temperature of a surface [K] that takes a heat flux [W/m2], by Newton's method
+//  from a first guess
+scalar surfaceThatTakes
+(
+    const nw_wall_cooling& c,
+    const scalar flux,
+    const scalar guess
+)
+{
+    // As the library's own
+    const scalar sigma = 5.670374419e-8;
+    scalar T = guess;
+    for (int step = 0; step < 50; ++step)
+    {
+        const scalar slope = c.gas_coefficient + 4*c.emissivity*sigma*pow3(T);
+        if (slope <= 0) return T;
+
+        const scalar taken =
+            c.gas_coefficient*(c.gas_temperature - T)
+          + c.emissivity*(c.irradiation - sigma*pow4(T)) + c.further_flux;
+        const scalar change = (taken - flux)/slope;
+        T = max(T + change, scalar(1));
+        if (mag(change) <= 1e-12*T) break;
+    }
+    return T;
+}
+
 } // End anonymous namespace
 
 
@@ -37,7 +65,17 @@ Foam::nearWall::wallHeat::wallHeat
 :
     mesh_(mesh),
     patches_(patches),
-    held_(readWallField(mesh, cloudName + ":heldHeat", dimEnergy/dimArea)),
+    capacity_
+    (
+        readWallField
+        (
+            mesh, cloudName + ":heldCapacity", dimEnergy/dimArea/dimTemperature
+        )
+    ),
+    enthalpy_
+    (
+        readWallField(mesh, cloudName + ":heldEnthalpy", dimEnergy/dimArea)
+    ),
     lag_(readWallField(mesh, cloudName + ":laggingHeat", dimEnergy/dimArea)),
     flux_
     (
@@ -45,7 +83,9 @@ Foam::nearWall::wallHeat::wallHeat
     ),
     started_(!saved.empty()),
     taken_(patchesOf(mesh).size()),
-    share_(patches.size(), scalar(1))
+    share_(patches.size(), scalar(1)),
+    coefficient_(taken_.size()),
+    given_(taken_.size())
 {
     added_.resize(patches_.size(), std::vector<kahanSum>(nTerms));
     for (const label patchi : patches_)
@@ -53,7 +93,10 @@ Foam::nearWall::wallHeat::wallHeat
         const word& name = patchesOf(mesh)[patchi].name();
         sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
         tables_.emplace_back(folder/(name + ".heat.dat"));
-        taken_[patchi].setSize(patchesOf(mesh)[patchi].size(), 0);
+        for (List<scalarField>* const all : {&taken_, &coefficient_, &given_})
+        {
+            (*all)[patchi] = scalarField(patchesOf(mesh)[patchi].size(), Zero);
+        }
     }
 }
 
@@ -72,18 +115,28 @@ void Foam::nearWall::wallHeat::add
 
 void Foam::nearWall::wallHeat::addCaptured
 (
-    const label patchi,
-    const label facei,
-    const scalar heat
+    const impactEvent& e,
+    const scalar acceleration
 )
 {
+    scalar heat = 0;
+    if
+    (
+        !e.bringsHeat || !coefficient_[e.patch].size()
+     || e.model->heat_brought(e.impact, e.heatCapacity, heat) != NW_OK
+    )
+    {
+        return;
+    }
+    const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
+    const scalar mass = acceleration*e.mass/area;
+    const scalar capacity = mass*e.heatCapacity;
+    capacity_.boundaryFieldRef()[e.patch][e.face] += capacity;
+    enthalpy_.boundaryFieldRef()[e.patch][e.face] +=
+        mass*heat + capacity*e.impact.T_w;
     forAll(patches_, i)
     {
-        if (patches_[i] != patchi) continue;
-
-        held_.boundaryFieldRef()[patchi][facei] += heat;
-        add(i, particles, heat*mesh_.magSf().boundaryField()[patchi][facei]);
-        add(i, landed, 1);
+        if (patches_[i] == e.patch) add(i, landed, 1);
     }
 }
 
@@ -94,7 +147,7 @@ void Foam::nearWall::wallHeat::beginStep(const scalar flow)
     scalarList sums(2*n, scalar(0));
     forAll(patches_, i)
     {
-        for (const scalar held : held_.boundaryField()[patches_[i]])
+        for (const scalar held : enthalpy_.boundaryField()[patches_[i]])
         {
             sums[i] += held != 0;
         }
@@ -126,18 +179,35 @@ void Foam::nearWall::wallHeat::beginPatch
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
     const scalarField fromGas(before*condition.fromGas());
     const scalarField fromRadiation(before*condition.fromRadiation());
-    const scalarField& held = held_.boundaryField()[patchi];
-    const scalarField& lag = lag_.boundaryField()[patchi];
-    scalarField& flux = flux_.boundaryFieldRef()[patchi];
     forAll(patches_, i)
     {
         if (patches_[i] != patchi || !started_) continue;
 
         taken_[patchi] = fromGas + fromRadiation;
-        flux = (share_[i]*held + lag)/time;
+        coefficient_[patchi] =
+            share_[i]*capacity_.boundaryField()[patchi]/time;
+        given_[patchi] =
+            (
+                share_[i]*enthalpy_.boundaryField()[patchi]
+              + lag_.boundaryField()[patchi]
+            )/time;
         add(i, gas, sum(fromGas*area));
         add(i, radiation, sum(fromRadiation*area));
     }
+}
+
+
+void Foam::nearWall::wallHeat::heat
+(
+    const label patchi,
+    const label facei,
+    nw_wall_cooling& cooling
+) const
+{
+    const scalar coefficient = coefficient_[patchi][facei];
+    cooling.gas_coefficient += coefficient;
+    cooling.further_flux +=
+        given_[patchi][facei] - coefficient*cooling.gas_temperature;
 }
 
 
@@ -145,21 +215,31 @@ void Foam::nearWall::wallHeat::add
 (
     const label patchi,
     const label facei,
-    const nw_deposit_losses& crossed
+    const nw_wall_cooling& cooling,
+    const nw_deposit_losses& crossed,
+    const scalar time
 )
 {
     if (!started_) return;
 
+    const scalar T = surfaceThatTakes
+    (
+        cooling, crossed.heat_taken/time, cooling.other_temperature
+    );
     forAll(patches_, i)
     {
         if (patches_[i] != patchi) continue;
 
         const scalar area = mesh_.magSf().boundaryField()[patchi][facei];
-        scalar& held = held_.boundaryFieldRef()[patchi][facei];
-        scalar& lag = lag_.boundaryFieldRef()[patchi][facei];
-        const scalar passedOn = share_[i]*held;
-        held -= passedOn;
-        lag += taken_[patchi][facei] + passedOn - crossed.heat_taken;
+        scalar& capacity = capacity_.boundaryFieldRef()[patchi][facei];
+        scalar& enthalpy = enthalpy_.boundaryFieldRef()[patchi][facei];
+        const scalar brought = share_[i]*(enthalpy - capacity*T);
+        capacity -= share_[i]*capacity;
+        enthalpy -= share_[i]*enthalpy;
+        flux_.boundaryFieldRef()[patchi][facei] = brought/time;
+        lag_.boundaryFieldRef()[patchi][facei] +=
+            taken_[patchi][facei] + brought - crossed.heat_taken;
+        add(i, particles, area*brought);
         add(i, coolant, area*crossed.heat_to_coolant);
         add(i, melting, area*crossed.heat_of_fusion);
     }
@@ -171,13 +251,14 @@ void Foam::nearWall::wallHeat::reportPatch
     Ostream& os,
     const label i,
     const scalarList& totals,
-    const scalar held,
+    const scalar lagging,
+    const scalar waiting,
     const scalar time,
     const bool writeRow
 )
 {
     const scalar in = totals[gas] + totals[radiation] + totals[particles];
-    const scalar out = totals[coolant] + totals[melting] + held;
+    const scalar out = totals[coolant] + totals[melting] + lagging;
     const scalar all = max
     (
         mag(totals[gas]) + mag(totals[radiation]) + mag(totals[particles]),
@@ -189,7 +270,7 @@ void Foam::nearWall::wallHeat::reportPatch
         os  << "        " << sums_[i].name() << ", heat [J]: gas " << totals[gas]
             << " + radiation " << totals[radiation] << " + particles "
             << totals[particles] << " = coolant " << totals[coolant]
-            << " + melting " << totals[melting] << " + held " << held
+            << " + melting " << totals[melting] << " + lagging " << lagging
             << "; relative residual " << residual << nl;
     }
     if (!writeRow) return;
@@ -197,7 +278,8 @@ void Foam::nearWall::wallHeat::reportPatch
     tableRow row;
     row.add("time_s", time);
     for (label t = 0; t < nTerms; ++t) row.add(names[t], totals[t]);
-    row.add("held_J", held);
+    row.add("lagging_J", lagging);
+    row.add("waiting_J", waiting);
     row.add("residual", residual);
     tables_[i].write(row);
 }
@@ -206,27 +288,34 @@ void Foam::nearWall::wallHeat::reportPatch
 Foam::dictionary Foam::nearWall::wallHeat::report
 (
     Ostream& os,
+    const depositFields& fields,
     const scalar time,
     const bool writeRow
 )
 {
     started_ = true;
-    scalarList held(patches_.size(), scalar(0));
+    const label n = patches_.size();
+    scalarList sums(2*n, scalar(0));
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
         const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-        held[i] = sum
+        const scalarField& T = fields.on(depositFields::temperature, patchi);
+        sums[i] = sum(area*lag_.boundaryField()[patchi]);
+        sums[n + i] = sum
         (
             area
-           *(held_.boundaryField()[patchi] + lag_.boundaryField()[patchi])
+           *(
+                enthalpy_.boundaryField()[patchi]
+              - T*capacity_.boundaryField()[patchi]
+            )
         );
     }
-    sumOverRanks(held);
+    sumOverRanks(sums);
     const List<scalarList> totals(runningTotals::totals(sums_));
     forAll(patches_, i)
     {
-        reportPatch(os, i, totals[i], held[i], time, writeRow);
+        reportPatch(os, i, totals[i], sums[i], sums[n + i], time, writeRow);
     }
     return runningTotals::saved(sums_, totals);
 }

@@ -573,16 +573,7 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
             << nw_status_text(status) << exit(FatalError);
     }
     returning_.addCaptured(e);
-    scalar heat = 0;
-    if
-    (
-        e.bringsHeat
-     && e.model->heat_brought(e.impact, e.heatCapacity, heat) == NW_OK
-    )
-    {
-        const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
-        heat_.addCaptured(e.patch, e.face, acceleration_*e.mass*heat/area);
-    }
+    heat_.addCaptured(e, acceleration_);
 }
 
 
@@ -629,7 +620,7 @@ void Foam::nearWall::wallMemory::noteHeat
     const scalar rise = toCoolant*(crossed.deposit_resistance - resistance);
     if (resistance >= 0) largestRise_ = max(largestRise_, mag(rise));
     resistance = crossed.deposit_resistance;
-    heat_.add(patchi, facei, crossed);
+    heat_.add(patchi, facei, cooling, crossed, duration);
 }
 
 
@@ -683,7 +674,7 @@ void Foam::nearWall::wallMemory::advance
         {
             nw_deposit_surroundings around(surroundings.at(facei));
             around.wall_temperature = wallTemperature[facei];
-            if (cooling) heating[facei].further_flux = heatFlux(patchi)[facei];
+            if (cooling) heat_.heat(patchi, facei, heating[facei]);
             const nw_status status =
                 cooling
               ? model_->advance(around, heating[facei], duration, d, here)
@@ -751,6 +742,6 @@ void Foam::nearWall::wallMemory::report
         os, fields_, totals, largestRise_, isCooled, bool(film_), time, writeRow
     );
     largestRise_ = 0;
-    savedHeat_ = heat_.report(os, time, writeRow);
+    savedHeat_ = heat_.report(os, fields_, time, writeRow);
     savedReturned_ = returning_.report(os, time, writeRow);
 }

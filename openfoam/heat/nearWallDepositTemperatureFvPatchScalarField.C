@@ -355,6 +355,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::behind() const
     {
         scalarField(size(), given_.Ta),
         scalarField(size(), 1/given_.resistance()),
+        scalarField(size(), Zero),
         scalarField(size(), Zero)
     };
     const nearWall::wallMemory* const deposits = memory();
@@ -366,7 +367,8 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::behind() const
 
     const label patchi = patch().index();
     const List<nw_wall_cooling> faces(heating());
-    found.flux = deposits->heatFlux(patchi);
+    found.landed = deposits->heatOfLanded().coefficient(patchi);
+    found.given = deposits->heatOfLanded().given(patchi);
     forAll(faces, facei)
     {
         const nw_wall_heat heat(deposits->heat(patchi, facei, faces[facei]));
@@ -505,10 +507,10 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
         const scalar radiated =
             given_.emissivity*sigma*(sqr(T[i]) + sqr(around))
            *(T[i] + around);
-        scalar taken = inside.conductance[i] + radiated;
+        scalar taken = inside.conductance[i] + inside.landed[i] + radiated;
         scalar given =
             inside.temperature[i]*inside.conductance[i] + radiated*around
-          + inside.flux[i];
+          + inside.given[i];
         // The radiation model computed its flux at an earlier temperature. So
         // that an insulated surface does not overshoot, it loses more by the
         // slope of a black one in P1; this term vanishes once the temperature
