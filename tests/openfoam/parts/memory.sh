@@ -373,10 +373,11 @@ decompose_into() {
     quiet decompose decomposePar
 }
 
-# Height and thickness [m] on each face of the wall x = 0 in the end
+# Height and thickness [m] on each face of the wall x = 0 in the end, at the time 1 or another
 film_profile() {
+    local t="${1:-1}"
     quiet centres postProcess -func writeCellCentres -latestTime
-    paste <(side_values 1/Cx) <(side_values 1/Cz) <(side_values 1/kinematicCloud:moltenMass) \
+    paste <(side_values "$t/Cx") <(side_values "$t/Cz") <(side_values "$t/kinematicCloud:moltenMass") \
         | awk '$1*$1 < 1e-20 { print $2, $3/1000 }'
 }
 
