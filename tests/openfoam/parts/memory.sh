@@ -248,12 +248,12 @@ slide_sums() {  # name start
 totals_but_residual() { totals kinematicCloud "$1" | awk '$1 ~ /wall$/ { $9 = 0; if ($5*$5 < 1e-30) $5 = 0 } { print }'; }
 
 # The tables of the run that started at a time, and the fields at its end, against the serial ones
-memory_compare() { # name start
+memory_compare() { # name start [end]
     local difference
     totals_but_residual "$2" > totals.here
     if difference="$(same_totals "$work/memory-ranks/totals.serial" totals.here 1e-10)"
     then ok "$1/tables"; else bad "$1/tables" "$(head -n 1 <<< "$difference")"; fi
-    memory_values 0.2 > values.here
+    memory_values "${3:-0.2}" > values.here
     if difference="$(same_values "$work/memory-ranks/values.serial" values.here 1e-10)"
     then ok "$1/fields ($(wc -l < values.here) values)"; else bad "$1/fields" "$(head -n 1 <<< "$difference")"; fi
 }
