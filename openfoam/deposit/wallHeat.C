@@ -77,15 +77,15 @@ Foam::nearWall::wallHeat::wallHeat
         readWallField(mesh, cloudName + ":heldEnthalpy", dimEnergy/dimArea)
     ),
     lag_(readWallField(mesh, cloudName + ":laggingHeat", dimEnergy/dimArea)),
+    taken_(readWallField(mesh, cloudName + ":takenHeat", dimEnergy/dimArea)),
     flux_
     (
         readWallField(mesh, cloudName + ":particleHeatFlux", dimPower/dimArea)
     ),
     started_(!saved.empty()),
-    taken_(patchesOf(mesh).size()),
     share_(patches.size(), scalar(1)),
-    coefficient_(taken_.size()),
-    given_(taken_.size())
+    coefficient_(patchesOf(mesh).size()),
+    given_(patchesOf(mesh).size())
 {
     added_.resize(patches_.size(), std::vector<kahanSum>(nTerms));
     for (const label patchi : patches_)
@@ -93,7 +93,7 @@ Foam::nearWall::wallHeat::wallHeat
         const word& name = patchesOf(mesh)[patchi].name();
         sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
         tables_.emplace_back(folder/(name + ".heat.dat"));
-        for (List<scalarField>* const all : {&taken_, &coefficient_, &given_})
+        for (List<scalarField>* const all : {&coefficient_, &given_})
         {
             (*all)[patchi] = scalarField(patchesOf(mesh)[patchi].size(), Zero);
         }
@@ -134,10 +134,7 @@ void Foam::nearWall::wallHeat::addCaptured
     capacity_.boundaryFieldRef()[e.patch][e.face] += capacity;
     enthalpy_.boundaryFieldRef()[e.patch][e.face] +=
         mass*heat + capacity*e.impact.T_w;
-    forAll(patches_, i)
-    {
-        if (patches_[i] == e.patch) add(i, landed, 1);
-    }
+    add(place(e.patch), landed, 1);
 }
 
 
@@ -168,32 +165,74 @@ void Foam::nearWall::wallHeat::beginStep(const scalar flow)
 }
 
 
-void Foam::nearWall::wallHeat::beginPatch
+void Foam::nearWall::wallHeat::collect
 (
     const label patchi,
     const wallCooling& condition,
-    const scalar before,
-    const scalar time
+    const scalar before
 )
 {
+    if (!started_) return;
+
+    const label i = place(patchi);
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
     const scalarField fromGas(before*condition.fromGas());
     const scalarField fromRadiation(before*condition.fromRadiation());
-    forAll(patches_, i)
-    {
-        if (patches_[i] != patchi || !started_) continue;
+    scalarField& taken = taken_.boundaryFieldRef()[patchi];
+    taken += fromGas + fromRadiation;
+    add(i, gas, sum(fromGas*area));
+    add(i, radiation, sum(fromRadiation*area));
+}
 
-        taken_[patchi] = fromGas + fromRadiation;
-        coefficient_[patchi] =
-            share_[i]*capacity_.boundaryField()[patchi]/time;
-        given_[patchi] =
-            (
-                share_[i]*enthalpy_.boundaryField()[patchi]
-              + lag_.boundaryField()[patchi]
-            )/time;
-        add(i, gas, sum(fromGas*area));
-        add(i, radiation, sum(fromRadiation*area));
+
+void Foam::nearWall::wallHeat::beginPatch
+(
+    const label patchi,
+    const scalar time
+)
+{
+    if (!started_) return;
+
+    const scalar share = share_[place(patchi)];
+    coefficient_[patchi] = share*capacity_.boundaryField()[patchi]/time;
+    given_[patchi] =
+        (
+            share*enthalpy_.boundaryField()[patchi]
+          + lag_.boundaryField()[patchi]
+        )/time;
+}
+
+
+void Foam::nearWall::wallHeat::spread
+(
+    const label patchi,
+    const scalarField& factors
+)
+{
+    for (volScalarField* const field : kept())
+    {
+        scalarField& values = field->boundaryFieldRef()[patchi];
+        values *= factors;
     }
+}
+
+
+void Foam::nearWall::wallHeat::archive(stateArchive& state)
+{
+    for (const label patchi : patches_)
+    {
+        for (volScalarField* const field : kept())
+        {
+            state.values(field->boundaryFieldRef()[patchi]);
+        }
+    }
+    state(sums_);
+    state(added_);
+    state.each(tables_);
+    state(started_);
+    state(share_);
+    state(coefficient_);
+    state(given_);
 }
 
 
@@ -226,23 +265,21 @@ void Foam::nearWall::wallHeat::add
     (
         cooling, crossed.heat_taken/time, cooling.other_temperature
     );
-    forAll(patches_, i)
-    {
-        if (patches_[i] != patchi) continue;
-
-        const scalar area = mesh_.magSf().boundaryField()[patchi][facei];
-        scalar& capacity = capacity_.boundaryFieldRef()[patchi][facei];
-        scalar& enthalpy = enthalpy_.boundaryFieldRef()[patchi][facei];
-        const scalar brought = share_[i]*(enthalpy - capacity*T);
-        capacity -= share_[i]*capacity;
-        enthalpy -= share_[i]*enthalpy;
-        flux_.boundaryFieldRef()[patchi][facei] = brought/time;
-        lag_.boundaryFieldRef()[patchi][facei] +=
-            taken_[patchi][facei] + brought - crossed.heat_taken;
-        add(i, particles, area*brought);
-        add(i, coolant, area*crossed.heat_to_coolant);
-        add(i, melting, area*crossed.heat_of_fusion);
-    }
+    const label i = place(patchi);
+    const scalar area = mesh_.magSf().boundaryField()[patchi][facei];
+    scalar& capacity = capacity_.boundaryFieldRef()[patchi][facei];
+    scalar& enthalpy = enthalpy_.boundaryFieldRef()[patchi][facei];
+    scalar& taken = taken_.boundaryFieldRef()[patchi][facei];
+    const scalar brought = share_[i]*(enthalpy - capacity*T);
+    capacity -= share_[i]*capacity;
+    enthalpy -= share_[i]*enthalpy;
+    flux_.boundaryFieldRef()[patchi][facei] = brought/time;
+    lag_.boundaryFieldRef()[patchi][facei] +=
+        taken + brought - crossed.heat_taken;
+    taken = 0;
+    add(i, particles, area*brought);
+    add(i, coolant, area*crossed.heat_to_coolant);
+    add(i, melting, area*crossed.heat_of_fusion);
 }
 
 
@@ -301,7 +338,11 @@ Foam::dictionary Foam::nearWall::wallHeat::report
         const label patchi = patches_[i];
         const scalarField& area = mesh_.magSf().boundaryField()[patchi];
         const scalarField& T = fields.on(depositFields::temperature, patchi);
-        sums[i] = sum(area*lag_.boundaryField()[patchi]);
+        sums[i] = sum
+        (
+            area
+           *(lag_.boundaryField()[patchi] + taken_.boundaryField()[patchi])
+        );
         sums[n + i] = sum
         (
             area
