@@ -509,6 +509,16 @@ fn a_cooled_wall_by_hand() {
     near(bare.wall_temperature, bare.surface_temperature);
     near(bare.coolant_flux, flux);
     assert_eq!(bare.deposit_resistance, 0.0);
+    near(bare.behind_temperature, 600.0);
+    near(bare.behind_resistance, 1.5e-3);
+    let (mut wall, mut crossed) = (nw_deposit::default(), nw_deposit_losses::default());
+    let around = nw_deposit_surroundings { voidage: 0.4, ..Default::default() };
+    let cooling = by_hand();
+    let (from, by, to) = (&raw const around, &raw const cooling, &raw mut wall);
+    let status = unsafe { (calls.nw_deposit_advance)(model, from, by, 60.0, to, &raw mut crossed) };
+    assert_eq!((status, crossed.heat_of_fusion), (NW_OK, 0.0));
+    near(crossed.heat_taken, 60.0 * flux);
+    near(crossed.heat_to_coolant, 60.0 * flux);
 
     // 2 mm of slag, 2750 kg/m3 and 1.5 W/(m K), under 1 mm of ash without voids, 1.4 W/(m K).
     let [melt, powder] = [2e-3 / 1.5, 1e-3 / 1.4];

@@ -97,6 +97,28 @@ case_landed() {
     then ok "landed/fusion ($said J)"; else bad landed/fusion "$said J, by hand $(brought_by_hand "$f" 2e5) J"; fi
     closes landed/fusion-balance "$f"/*.heat.dat
     melted_layer
+    landed_interval
+}
+
+# Deposits that advance in every fifth step take the same heat, and what waits in between is in the balance
+landed_interval() {
+    local f said
+    rain "$work/landed-interval" 1100 || return
+    sed -i 's/memory { }/memory { intervalSteps 5; }/' constant/interaction
+    settings 0.052 0.013 startTime ascii
+    solve landed interval "$solver" || return
+    f="$(folder limestoneCloud1)"
+    said="$(brought "$f")"
+    if near "$said" "$(brought_by_hand "$f" 0)" 1e-4
+    then ok "landed/interval ($said J)"; else bad landed/interval "$said J, by hand $(brought_by_hand "$f" 0) J"; fi
+    closes landed/interval-balance "$f"/*.heat.dat
+    rm -rf "$work/landed-interval-restart"; mkdir "$work/landed-interval-restart"
+    cp -r 0 0.026 constant system "$work/landed-interval-restart"; cd "$work/landed-interval-restart" || return
+    settings 0.052 0.013 latestTime ascii
+    solve landed interval-restart "$solver" || return
+    closes landed/interval-restart "$(folder limestoneCloud1 0.026)"/*.heat.dat
+    if near "$(brought "$(folder limestoneCloud1 0.026)")" "$said" 1e-5
+    then ok landed/interval-same; else bad landed/interval-same "$(brought "$(folder limestoneCloud1 0.026)") J, $said J"; fi
 }
 
 # Ash that is solid below 1400 K, with a heat of fusion
