@@ -93,10 +93,14 @@ Foam::nearWall::wallHeat::wallHeat
         const word& name = patchesOf(mesh)[patchi].name();
         sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
         tables_.emplace_back(folder/(name + ".heat.dat"));
-        for (List<scalarField>* const all : {&coefficient_, &given_})
-        {
-            (*all)[patchi] = scalarField(patchesOf(mesh)[patchi].size(), Zero);
-        }
+    }
+
+    // Zero where a condition cools a wall whose deposit does not know of it
+    forAll(patchesOf(mesh), patchi)
+    {
+        const scalarField none(patchesOf(mesh)[patchi].size(), Zero);
+        coefficient_[patchi] = none;
+        given_[patchi] = none;
     }
 }
 
@@ -122,7 +126,7 @@ void Foam::nearWall::wallHeat::addCaptured
     scalar heat = 0;
     if
     (
-        !e.bringsHeat || !coefficient_[e.patch].size()
+        !e.bringsHeat || place(e.patch) < 0
      || e.model->heat_brought(e.impact, e.heatCapacity, heat) != NW_OK
     )
     {

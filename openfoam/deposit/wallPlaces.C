@@ -56,7 +56,7 @@ Foam::nearWall::wallPlaces::wallPlaces
 void Foam::nearWall::wallPlaces::requireTopology() const
 {
     const bool isSame =
-        !mesh_.topoChanging() && mesh_.nFaces() == nFaces_
+        !topologyChanged(mesh_) && mesh_.nFaces() == nFaces_
      && mesh_.nCells() == nCells_;
     if (isSame) return;
 

@@ -7,6 +7,8 @@ use super::chart::Figure;
 /// One section of a page. All text is plain; the template escapes it.
 #[derive(Debug, Clone, PartialEq)]
 enum PagePart {
+    /// Links to all headings.
+    Contents,
     Heading(String),
     Subheading(String),
     Lead(String),
@@ -109,6 +111,20 @@ impl Page {
         Self { title: title.to_owned(), sections: Vec::new(), foot: String::new(), version }
     }
 
+    /// Adds a list of contents: the headings of the page, with links.
+    pub fn contents(&mut self) {
+        self.sections.push(PagePart::Contents);
+    }
+
+    /// The headings and their places on the page.
+    fn headings(&self) -> Vec<(&String, String)> {
+        let found = self.sections.iter().filter_map(|part| match part {
+            PagePart::Heading(text) => Some((text, place(text))),
+            _ => None,
+        });
+        found.collect()
+    }
+
     /// Adds a heading.
     pub fn heading(&mut self, text: impl Into<String>) {
         self.sections.push(PagePart::Heading(text.into()));
@@ -188,6 +204,12 @@ impl Page {
     pub fn html(&self) -> Result<String, askama::Error> {
         self.render()
     }
+}
+
+/// A heading as the id of its section.
+fn place(heading: &str) -> String {
+    let words = heading.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
+    format!("section-{}", words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-"))
 }
 
 #[cfg(test)]

@@ -11,7 +11,8 @@ const LEAST_CHANGE: f64 = 1e-3;
 
 pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
-    let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
+    let walls: Vec<(&String, &History<DepositState>)> =
+        all.filter(|(_, wall)| is_something(wall) && !comparison.few.contains(&wall.wall)).collect();
     // A single run needs no name.
     let single = comparison.is_single();
     let titled = |(label, wall): &(&String, &History<DepositState>)| {

@@ -11,6 +11,7 @@ mod deposit;
 mod gas;
 mod injections;
 mod near_wall;
+mod opening;
 mod places;
 mod rebound;
 mod surfaces;
@@ -41,6 +42,9 @@ const SECTIONS: [PageSection; 8] = [
 const LAST_SECTIONS: [PageSection; 2] =
     [("Which injection is captured", &[], injections::table), ("Balance", &[], balance::table)];
 
+/// Hits of a wall from which on it has figures.
+const FEW_HITS: u64 = 30;
+
 type PageSection =
     (&'static str, &'static [fn(&RunComparison<'_>) -> Vec<Figure>], fn(&RunComparison<'_>) -> Option<Table>);
 
@@ -56,6 +60,7 @@ pub fn openfoam_page(runs: &[RunResults]) -> Result<String, askama::Error> {
     let comparison = RunComparison::new(runs);
     let mut page = Page::new(&verdict::title(&comparison));
     page.lead(verdict::lead(&comparison));
+    page.figures(opening::figures(&comparison));
     comparison.add_to(&mut page);
     page.heading("Sources");
     page.text("The tables of nearWallInteraction give its hits, captures, regimes, conversions and balance. The stock models \
@@ -152,6 +157,8 @@ struct RunComparison<'a> {
     runs: &'a [RunResults],
     labels: Vec<String>,
     walls: Vec<String>,
+    /// Walls with fewer than [`FEW_HITS`] hits, which get a line and no figures.
+    few: Vec<String>,
     /// The last time that all runs have reached [s].
     time: f64,
 }
@@ -166,9 +173,33 @@ struct Series<'a> {
 impl<'a> RunComparison<'a> {
     fn new(runs: &'a [RunResults]) -> Self {
         let time = common_time(runs.iter());
-        let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), time };
+        let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), few: Vec::new(), time };
         comparison.walls = comparison.find_walls();
+        comparison.set_few_aside();
         comparison
+    }
+
+    /// Most hits of a wall in a run; `None` where they are not counted.
+    fn most_hits(&self, wall: &str) -> Option<u64> {
+        self.runs.iter().filter_map(|run| run.arrived(wall, self.time)).map(|(hits, _)| hits.count).max()
+    }
+
+    /// Takes walls with few hits from the figures, unless all have few.
+    fn set_few_aside(&mut self) {
+        let walls = std::mem::take(&mut self.walls);
+        let is_few = |wall: &String| self.most_hits(wall).is_some_and(|hits| hits < FEW_HITS);
+        let (few, many): (Vec<_>, Vec<_>) = walls.into_iter().partition(is_few);
+        (self.few, self.walls) = if many.is_empty() { (Vec::new(), few) } else { (few, many) };
+    }
+
+    /// The walls with few hits, in a sentence.
+    fn few_words(&self) -> Option<String> {
+        let hits = |wall: &String| format!("{wall} ({})", self.most_hits(wall).unwrap_or(0));
+        let walls: Vec<String> = self.few.iter().map(hits).collect();
+        let at_most = if self.is_single() { "" } else { ", the most of a case" };
+        (!walls.is_empty()).then(|| {
+            format!("Walls with fewer than {FEW_HITS} hits{at_most}, in no figure: {}.", walls.join(", "))
+        })
     }
 
     /// The walls of a standalone case in its order. Of OpenFOAM cases those walls of the mesh, or,
@@ -201,6 +232,10 @@ impl<'a> RunComparison<'a> {
 
     fn add_to(&self, page: &mut Page) {
         page.verdict(verdict::lines(self));
+        page.contents();
+        if let Some(words) = self.few_words() {
+            page.text(words);
+        }
         for (label, run) in self.each() {
             if let Some((count, reason)) = &run.trouble {
                 let of = if self.is_single() { String::new() } else { format!(" of {label}") };
