@@ -1,5 +1,6 @@
 //! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
 
+mod bench;
 mod check;
 mod compare;
 mod diagnose;
@@ -39,6 +40,7 @@ subcommands! {
     Predict: predict,
     Diagnose: diagnose,
     Compare: compare,
+    Bench: bench,
     Simulate: simulate,
     Sensitivity: sensitivity,
     Map: map,
