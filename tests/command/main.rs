@@ -6,6 +6,7 @@
 mod common;
 
 mod arguments;
+mod bench;
 mod compare;
 mod corpus;
 mod deposit_probe;
@@ -16,6 +17,7 @@ mod extra_inputs;
 mod faults;
 mod forecast;
 mod gas_and_parcels;
+mod init;
 mod laboratory_files;
 mod licences;
 mod map;

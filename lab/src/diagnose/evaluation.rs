@@ -248,7 +248,8 @@ impl<'a> Evaluation<'a> {
     pub fn standardised(&self) -> Vec<Option<f64>> {
         let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
             let mean = mean(predictions, &offset);
-            let (which, reading) = [row.e_n, row.e_t].into_iter().enumerate().find_map(|(which, one)| Some((which, one?)))?;
+            let (which, reading) =
+                [row.e_n, row.e_t].into_iter().enumerate().find_map(|(which, one)| Some((which, one?)))?;
             let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
             Some((reading.value - mean.restitution[which] - shift) / width)
         };

@@ -13,7 +13,11 @@ const RANGES: usize = 3;
 pub fn text(result: &BenchmarkResult, chosen: &[(&BenchmarkEntry, Vec<Shortfall>)]) -> String {
     let [all, used] = result.readings;
     let sources = result.sources.len();
-    let mut text = format!("{used} of {all} readings are decided by all and scored; {sources} sources.\n");
+    let mut text = format!(
+        "{used} of {all} readings of {sources} sources are decided by all and scored. Each source is predicted with numbers and\n\
+         a scatter that were fitted to the other sources, and counts once. Beyond level: mean log score of a reading less\n\
+         that of the mean of the other sources [nats]. In band: readings of e_n and e_t in the 95 % band of the scatter.\n"
+    );
     for (entry, ranges) in chosen {
         text += &failures(entry, ranges);
     }
@@ -49,8 +53,11 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall]) -> String {
     let mut text = Table::new(&caption, 3, &header, sets.iter().map(row).collect()).text();
     for Shortfall { input, unit, range: [low, high], readings, gain } in ranges.iter().take(RANGES) {
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
-        let (low, high, gain) = (number(*low), number(*high), nats(*gain));
-        text += &format!("  worst over {input}: {low} to {high}{unit}, {gain} nats a reading ({readings})\n");
+        let range = if low == high { number(*low) } else { format!("{} to {}", number(*low), number(*high)) };
+        text += &format!(
+            "  worst over {input}: {range}{unit}, {} beyond level ({readings} readings)\n",
+            nats(*gain)
+        );
     }
     if let Some(coverage) = entry.own_coverage {
         text += &format!("  its own bands hold {} of the readings\n", percent(coverage));
@@ -85,18 +92,29 @@ fn laws(result: &BenchmarkResult, kind: EntryKind, caption: &str) -> Option<Tabl
     let row = |entry: &&BenchmarkEntry| {
         let mut cells = vec![entry.name.clone()];
         shown.iter().for_each(|&which| cells.extend(measures(which, entry.by_observable[which].as_ref())));
-        let last = if kind == EntryKind::Whole { nats(entry.whole.gain) } else { entry.numbers.join("; ") };
-        cells.push(last);
+        cells.push(if kind == EntryKind::Whole { nats(entry.whole.gain) } else { fitted(entry) });
         cells
     };
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     (entries.len() > 1).then(|| Table::new(caption, 1, &header, entries.iter().map(row).collect()))
 }
 
+/// The fitted numbers with their ranges over the sources that were left out.
+fn fitted(entry: &BenchmarkEntry) -> String {
+    let one = |(name, [low, high]): &(&str, [f64; 2])| match low == high {
+        true => format!("{name} {}", number(*low)),
+        false => format!("{name} {} to {}", number(*low), number(*high)),
+    };
+    entry.numbers.iter().map(one).collect::<Vec<_>>().join(", ")
+}
+
 /// Headings of the columns of an observable.
 fn columns(observable: usize) -> &'static [&'static str] {
-    [&["e_n beyond level", "rms", "in band"][..], &["e_t beyond level", "rms", "in band"], &["captured beyond level"]]
-        [observable]
+    [
+        &["e_n beyond level", "rms", "in band"][..],
+        &["e_t beyond level", "rms", "in band"],
+        &["captured beyond level"],
+    ][observable]
 }
 
 fn measures(observable: usize, measure: Option<&BenchmarkMeasure>) -> Vec<String> {

@@ -4,6 +4,7 @@ mod bench;
 mod check;
 mod compare;
 mod diagnose;
+mod init;
 mod map;
 mod materials;
 mod predict;
@@ -37,6 +38,7 @@ macro_rules! subcommands {
 }
 
 subcommands! {
+    Init: init,
     Predict: predict,
     Diagnose: diagnose,
     Compare: compare,

@@ -13,8 +13,8 @@ use crate::diagnose::fault;
 
 /// The answers of a law with certain numbers to every set.
 pub(super) struct Trial {
-    /// The fitted numbers, as `name = value`.
-    pub numbers: String,
+    /// The fitted numbers.
+    pub numbers: Numbers,
     pub forecasts: Vec<Forecast>,
 }
 
@@ -41,8 +41,7 @@ impl Contestant {
         for numbers in law.trials() {
             let one = models_of(sets, |base| text(base, &numbers).map_err(BenchmarkError::from))?;
             whole.decided = one.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();
-            let shown: Vec<String> = numbers.iter().map(|(name, value)| format!("{name} = {value:.3e}")).collect();
-            whole.trials.push(Trial { numbers: shown.join(", "), forecasts: forecasts(&one, sets) });
+            whole.trials.push(Trial { numbers, forecasts: forecasts(&one, sets) });
         }
         Ok(whole)
     }
@@ -52,10 +51,13 @@ impl Contestant {
         let laws: DocumentMut = text.parse()?;
         let mut whole = Self::empty(name.to_owned(), EntryKind::Whole);
         let models = models_of(sets, |base| Ok(with_laws(base, &laws)?))?;
-        let refused = models.iter().zip(sets).find_map(|(model, set)| Some(format!("{}: {}", set.name, model.as_ref().err()?)));
+        let refused = models
+            .iter()
+            .zip(sets)
+            .find_map(|(model, set)| Some(format!("{}: {}", set.name, model.as_ref().err()?)));
         whole.refusal = refused;
         whole.decided = models.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();
-        whole.trials.push(Trial { numbers: String::new(), forecasts: forecasts(&models, sets) });
+        whole.trials.push(Trial { numbers: Numbers::new(), forecasts: forecasts(&models, sets) });
         Ok(whole)
     }
 
@@ -70,14 +72,16 @@ impl Contestant {
         for set in sets {
             let (own, others) = rest.split_at(set.count());
             rest = others;
-            let known = |(answer, observable): (&ExternalAnswer, &Observable)| answer.values[*observable as usize].is_finite();
+            let known = |(answer, observable): (&ExternalAnswer, &Observable)| {
+                answer.values[*observable as usize].is_finite()
+            };
             whole.decided.push(own.iter().zip(&set.observables).map(known).collect());
             forecasts.push(Forecast::stated(own.iter().map(|answer| prediction(answer.values)).collect()));
             bands.push(own.iter().map(|answer| answer.bands).collect::<Vec<_>>());
         }
         let has_bands = bands.iter().flatten().flatten().flatten().any(|end| end.is_finite());
         whole.bands = has_bands.then_some(bands);
-        whole.trials.push(Trial { numbers: String::new(), forecasts });
+        whole.trials.push(Trial { numbers: Numbers::new(), forecasts });
         Ok(whole)
     }
 
@@ -89,7 +93,13 @@ impl Contestant {
 /// A prediction of these values; what is not known is no statement: a rebound.
 pub(super) fn prediction([e_n, e_t, p]: [f64; 3]) -> Prediction {
     let known = |value: f64| if value.is_finite() { value } else { 0.0 };
-    Prediction { restitution: [known(e_n), known(e_t)], capture: known(p), weight: 1.0, reach: [0.0; 2], filling: 0 }
+    Prediction {
+        restitution: [known(e_n), known(e_t)],
+        capture: known(p),
+        weight: 1.0,
+        reach: [0.0; 2],
+        filling: 0,
+    }
 }
 
 /// The model of each set, or why the materials of the set do not suffice for the laws.

@@ -38,7 +38,9 @@ pub(super) fn ask(command: &str, impacts: String, count: usize) -> Result<Vec<Ex
     let answers = answers(&output.stdout)?;
     if answers.len() != count {
         let rows = answers.len();
-        return Err(format!("it wrote {rows} rows for {count} impacts; write one row for each, in the same order"));
+        return Err(format!(
+            "it wrote {rows} rows for {count} impacts; write one row for each, in the same order"
+        ));
     }
     Ok(answers)
 }
@@ -92,6 +94,8 @@ mod tests {
         assert!(fault("cat > /dev/null; echo e_n; echo 0.5").contains("1 rows for 2 impacts"));
         assert!(fault("cat").contains("a heading with e_n, e_t and p"));
         assert!(fault("echo p; echo 0; echo 2").contains("line 3 of what it wrote: p `2` is no probability"));
-        assert!(fault("echo e_n; echo x; echo 1").contains("line 2 of what it wrote: e_n `x` is not a number"));
+        assert!(
+            fault("echo e_n; echo x; echo 1").contains("line 2 of what it wrote: e_n `x` is not a number")
+        );
     }
 }

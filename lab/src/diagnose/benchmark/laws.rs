@@ -39,7 +39,8 @@ pub(super) struct NamedLaw {
 
 /// Every law of the library.
 pub(super) fn named_laws() -> Vec<NamedLaw> {
-    let law = |side, name, numbers: &[(&'static str, Search)]| NamedLaw { side, name, numbers: numbers.to_vec() };
+    let law =
+        |side, name, numbers: &[(&'static str, Search)]| NamedLaw { side, name, numbers: numbers.to_vec() };
     let share = Search::Linear(0.05, 1.0);
     let yielding = Search::Log(0.35, 5.6);
     let friction = Search::Linear(0.03, 0.9);
@@ -52,7 +53,9 @@ pub(super) fn named_laws() -> Vec<NamedLaw> {
         law(Side::Tangential, "sliding-rolling", &[("friction", friction)]),
     ];
     laws.extend(normal::LISTED_LAWS.iter().map(|one| law(Side::Normal, one.name, &fitted(one.parameters))));
-    laws.extend(tangential::LISTED_LAWS.iter().map(|one| law(Side::Tangential, one.name, &fitted(one.parameters))));
+    laws.extend(
+        tangential::LISTED_LAWS.iter().map(|one| law(Side::Tangential, one.name, &fitted(one.parameters))),
+    );
     laws
 }
 
@@ -71,7 +74,10 @@ impl NamedLaw {
         let mut all: Vec<Numbers> = vec![Vec::new()];
         for &(name, search) in &self.numbers {
             let values = values(search);
-            all = all.iter().flat_map(|one| values.iter().map(|&value| [one.clone(), vec![(name, value)]].concat())).collect();
+            all = all
+                .iter()
+                .flat_map(|one| values.iter().map(|&value| [one.clone(), vec![(name, value)]].concat()))
+                .collect();
         }
         all
     }
@@ -79,8 +85,10 @@ impl NamedLaw {
     /// The model of a set under this law with these numbers; the other law of a rebound is the default one.
     pub fn model_text(&self, base: &str, numbers: &Numbers) -> Result<String, TomlError> {
         let mut laws = DocumentMut::new();
-        laws["normal"] = Item::Table(Table::from_iter([("model", value("thornton-ning")), ("yield_ratio", value(1.6))]));
-        laws["tangential"] = Item::Table(Table::from_iter([("model", value("constant")), ("e_t", value(0.8))]));
+        laws["normal"] =
+            Item::Table(Table::from_iter([("model", value("thornton-ning")), ("yield_ratio", value(1.6))]));
+        laws["tangential"] =
+            Item::Table(Table::from_iter([("model", value("constant")), ("e_t", value(0.8))]));
         let mut own = Table::from_iter([("model", value(self.name))]);
         own.extend(numbers.iter().map(|(name, number)| (*name, value(*number))));
         laws[self.side.table()] = Item::Table(own);
@@ -90,7 +98,9 @@ impl NamedLaw {
 
 /// The values of a number that a fit tries.
 fn values(search: Search) -> Vec<f64> {
-    let steps = |low: f64, high: f64| (0..=STEPS).map(move |step| low + (high - low) * f64::from(step) / f64::from(STEPS));
+    let steps = |low: f64, high: f64| {
+        (0..=STEPS).map(move |step| low + (high - low) * f64::from(step) / f64::from(STEPS))
+    };
     match search {
         Search::Log(low, high) => steps(low.ln(), high.ln()).map(f64::exp).collect(),
         Search::Linear(low, high) => steps(low, high).collect(),
@@ -136,7 +146,8 @@ mod tests {
             let trials = law.trials();
             for numbers in [trials.first(), trials.last()].into_iter().flatten() {
                 let text = law.model_text(BASE, numbers).unwrap();
-                let model = Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+                let model =
+                    Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
                 let names = [model.normal_law().name(), model.tangential_law().name()];
                 assert_eq!(names[law.side as usize], law.name);
                 assert!(model.terms().is_empty() && text.contains("work_of_adhesion = 0.2"), "{text}");

@@ -44,7 +44,9 @@ pub(super) fn published_sets() -> Result<Vec<MeasuredSet>, BenchmarkError> {
     for record in reader.into_records() {
         let record = record.map_err(fault)?;
         let observation = Observation { header: &header, record: &record };
-        let Some(&(_, base)) = MODELS.iter().find(|(path, _)| *path == observation.text("model")) else { continue };
+        let Some(&(_, base)) = MODELS.iter().find(|(path, _)| *path == observation.text("model")) else {
+            continue;
+        };
         let rows = observation.rows();
         if rows.is_empty() {
             continue;
@@ -73,7 +75,11 @@ struct Observation<'a> {
 
 impl Observation<'_> {
     fn text(&self, column: &str) -> &str {
-        self.header.iter().position(|name| name == column).and_then(|at| self.record.get(at)).unwrap_or_default()
+        self.header
+            .iter()
+            .position(|name| name == column)
+            .and_then(|at| self.record.get(at))
+            .unwrap_or_default()
     }
 
     fn number(&self, column: &str) -> Option<f64> {
@@ -104,7 +110,10 @@ impl Observation<'_> {
             }
             ("e_n", Some(e_n)) => {
                 // The stated range is taken as two standard errors either way.
-                let error = self.number("high").zip(self.number("low")).map_or(0.0, |(high, low)| 0.25 * (high - low));
+                let error = self
+                    .number("high")
+                    .zip(self.number("low"))
+                    .map_or(0.0, |(high, low)| 0.25 * (high - low));
                 self.add(&mut rows, self.middle("v_low", "v_high"), &format!("{e_n},{error},"));
             }
             _ => {}
@@ -115,8 +124,11 @@ impl Observation<'_> {
     /// Adds an impact at a total speed, or at a normal speed where no angle is given.
     fn add(&self, rows: &mut String, speed: Option<f64>, observed: &str) {
         let (Some(speed), Some(diameter)) = (speed, self.middle("d_low", "d_high")) else { return };
-        let (sine, cosine) = self.number("angle").unwrap_or(90.0).to_radians().sin_cos();
-        let (normal, tangential) = (speed * sine, (speed * cosine).max(0.0));
+        // Head-on has no tangential speed, not one of rounding.
+        let along = |angle: f64| angle.to_radians().sin_cos();
+        let oblique = self.number("angle").filter(|angle| *angle < 90.0);
+        let (sine, cosine) = oblique.map_or((1.0, 0.0), along);
+        let (normal, tangential) = (speed * sine, speed * cosine);
         let [particle, wall, conversion] = ["T_p", "T_w", "conversion"].map(|column| self.text(column));
         // Writing to a text does not fail.
         let _ = writeln!(

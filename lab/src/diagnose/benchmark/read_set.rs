@@ -84,13 +84,16 @@ fn line(set: &ReadSet, row: &Measurement) -> Vec<String> {
     let wall = &model.walls()[row.wall];
     let density = model.particle_density(&row.impact).unwrap_or(0.0);
     let impact = Impact { particle_density: density, ..row.impact };
-    let mut cells = vec![set.name.clone(), model.particle().name().to_owned(), wall.material().name().to_owned()];
+    let mut cells =
+        vec![set.name.clone(), model.particle().name().to_owned(), wall.material().name().to_owned()];
     cells.extend(INPUTS.iter().map(|input| (input.value)(&impact).to_string()));
-    let solids = [(model.particle(), impact.particle_temperature), (wall.material(), impact.wall_temperature)];
+    let solids =
+        [(model.particle(), impact.particle_temperature), (wall.material(), impact.wall_temperature)];
     for (material, temperature) in solids {
         // Blank where the material is not known at this temperature.
         let known = material.mechanical(temperature).ok();
-        let cell = |place: usize| known.as_ref().map_or_else(String::new, |one| properties(one)[place].to_string());
+        let cell =
+            |place: usize| known.as_ref().map_or_else(String::new, |one| properties(one)[place].to_string());
         cells.extend((0..PROPERTIES.len()).map(cell));
     }
     cells

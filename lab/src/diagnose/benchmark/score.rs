@@ -38,8 +38,8 @@ pub struct BenchmarkEntry {
     pub by_observable: [Option<BenchmarkMeasure>; 3],
     /// Share of the readings of `e_n` and `e_t` in its own bands; `None` without bands.
     pub own_coverage: Option<f64>,
-    /// Its fitted numbers, one text for each set of values that some source was predicted with.
-    pub numbers: Vec<String>,
+    /// Its fitted numbers, each with the least and the largest value that a source was predicted with.
+    pub numbers: Vec<(&'static str, [f64; 2])>,
     /// Why it does not decide a set.
     pub refusal: Option<String>,
     /// Readings that it does not decide.
@@ -97,7 +97,7 @@ pub(super) struct ScoredReading {
 
 /// A trial under evaluation, with the scatter of each set about it.
 struct Fitted<'a> {
-    numbers: &'a str,
+    numbers: &'a [(&'static str, f64)],
     sets: Vec<Evaluation<'a>>,
     /// By set: scatter and number of readings of `e_n` and `e_t`.
     scatter: Vec<[[f64; 2]; 2]>,
@@ -136,7 +136,7 @@ impl Benchmark {
 }
 
 /// The readings of a contestant and the numbers that it was fitted with.
-type Scored = (Vec<ScoredReading>, Vec<String>);
+type Scored = (Vec<ScoredReading>, Vec<(&'static str, [f64; 2])>);
 
 impl Common<'_> {
     /// The sets of a source.
@@ -163,7 +163,8 @@ impl Common<'_> {
         let scatter = sets.iter().enumerate().map(|(place, set)| {
             let fitted = set.clone().with_fitted_scatter().scatter;
             let count = |kind: Observable| {
-                self.rows[place].iter().filter(|&&row| self.sets[place].observables[row] == kind).count() as f64
+                self.rows[place].iter().filter(|&&row| self.sets[place].observables[row] == kind).count()
+                    as f64
             };
             let counts = [Observable::NormalRestitution, Observable::TangentialRestitution].map(count);
             [0, 1].map(|which| [fitted[which], counts[which]])
@@ -203,12 +204,15 @@ impl Common<'_> {
     /// The readings of the sources of a contestant, each under the fit to the others.
     fn scored(&self, one: &Contestant, level: &Scored) -> Scored {
         let trials: Vec<Fitted<'_>> = one.trials.iter().map(|trial| self.fitted(trial)).collect();
-        let (mut readings, mut numbers) = (Vec::new(), Vec::new());
+        let (mut readings, mut numbers) = (Vec::new(), Vec::<(&str, [f64; 2])>::new());
         for source in 0..self.sources {
             let best = self.best(&trials, source);
             readings.extend(self.of_source(best, source));
-            if !best.numbers.is_empty() && !numbers.iter().any(|known| known == best.numbers) {
-                numbers.push(best.numbers.to_owned());
+            for &(name, value) in best.numbers {
+                match numbers.iter_mut().find(|(known, _)| *known == name) {
+                    Some((_, [low, high])) => (*low, *high) = (low.min(value), high.max(value)),
+                    None => numbers.push((name, [value; 2])),
+                }
             }
         }
         for (reading, level) in readings.iter_mut().zip(&level.0) {
@@ -255,16 +259,13 @@ impl Common<'_> {
             let values = Observable::ALL.map(|observable| {
                 let measured = |set: usize| {
                     let rows = self.rows[set].iter().map(|&row| &self.sets[set].data.rows[row]);
-                    rows.filter_map(|row| match observable {
-                        Observable::Capture => row.captured.or(row.is_unstated_rebound().then_some(0.0)),
-                        other => other.measured(row),
-                    })
-                    .collect()
+                    rows.filter_map(|row| observable.measured(row)).collect()
                 };
                 self.mean_of_others(source, measured).unwrap_or(0.5)
             });
-            let forecasts = self.sets.iter().map(|set| Forecast::stated(vec![prediction(values); set.count()]));
-            let trial = Trial { numbers: String::new(), forecasts: forecasts.collect() };
+            let forecasts =
+                self.sets.iter().map(|set| Forecast::stated(vec![prediction(values); set.count()]));
+            let trial = Trial { numbers: Vec::new(), forecasts: forecasts.collect() };
             readings.extend(self.of_source(&self.fitted(&trial), source));
         }
         (readings, Vec::new())
@@ -293,7 +294,8 @@ impl Common<'_> {
             }
         }
         let own_coverage = mean(readings.iter().filter_map(|one| one.in_own_band).map(f64::from));
-        let nothing = BenchmarkMeasure { readings: 0, score: 0.0, gain: 0.0, rms: f64::NAN, coverage: f64::NAN };
+        let nothing =
+            BenchmarkMeasure { readings: 0, score: 0.0, gain: 0.0, rms: f64::NAN, coverage: f64::NAN };
         BenchmarkEntry {
             name: name.to_owned(),
             kind,
@@ -309,7 +311,11 @@ impl Common<'_> {
     }
 
     /// The means over the sources of some readings; `None` without any.
-    fn measure(&self, readings: &[ScoredReading], wanted: &dyn Fn(&ScoredReading) -> bool) -> Option<BenchmarkMeasure> {
+    fn measure(
+        &self,
+        readings: &[ScoredReading],
+        wanted: &dyn Fn(&ScoredReading) -> bool,
+    ) -> Option<BenchmarkMeasure> {
         let of_sources = |value: &dyn Fn(&ScoredReading) -> Option<f64>| {
             let of_source = |source: usize| {
                 let own = readings.iter().filter(|one| self.sets[one.set].source == source && wanted(one));

@@ -36,17 +36,21 @@ struct Over {
 
 fn inputs() -> Vec<Over> {
     let own = INPUTS.iter().filter(|input| input.name != "v_t");
-    let own = own.map(|input| Over { name: input.name, unit: input.unit, needs: input.name, value: input.value });
+    let own =
+        own.map(|input| Over { name: input.name, unit: input.unit, needs: input.name, value: input.value });
     let angle = |impact: &Impact| impact.angle_from_surface().to_degrees();
-    own.chain([Over { name: "angle from the surface", unit: "degrees", needs: "v_t", value: angle }]).collect()
+    own.chain([Over { name: "angle from the surface", unit: "degrees", needs: "v_t", value: angle }])
+        .collect()
 }
 
 impl Benchmark {
     /// The range of each input in which an entry of the result scores least beside the level, the worst first.
     #[must_use]
     pub fn shortfalls(&self, entry: &BenchmarkEntry) -> Vec<Shortfall> {
+        let own = |one: &&ScoredReading| entry.kind.answers_for(one.observable);
+        let readings: Vec<ScoredReading> = entry.readings.iter().filter(own).copied().collect();
         let worst = |over: &Over| {
-            let parts = self.parts(over, &entry.readings);
+            let parts = self.parts(over, &readings);
             parts.into_iter().filter(|part| part.gain < 0.0).min_by(|a, b| a.gain.total_cmp(&b.gain))
         };
         let mut found: Vec<Shortfall> = inputs().iter().filter_map(worst).collect();

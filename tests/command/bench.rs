@@ -1,0 +1,101 @@
+//! `nearwall bench`: what the page prints is what the command prints; planted sets and other programs are scored.
+
+use std::path::Path;
+
+use crate::runner::{WAX, done, folder, nearwall, refused};
+
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench.md");
+
+/// The code blocks of the page, by the word after the fence.
+fn blocks(page: &str, kind: &str) -> Vec<String> {
+    let fence = format!("```{kind}\n");
+    page.split(&fence).skip(1).map(|rest| rest.split("```").next().unwrap().to_owned()).collect()
+}
+
+/// `docs/bench.md` has what `nearwall bench` prints, and what its example prints; `NEARWALL_BLESS=1` writes both.
+#[test]
+fn the_page_has_the_tables() {
+    let page = std::fs::read_to_string(PAGE).unwrap();
+    let folder = folder(&[("law.awk", &blocks(&page, "awk")[0])]);
+    let example = blocks(&page, "sh")[0].lines().last().unwrap().to_owned();
+    let own = done(folder.path(), &["bench", "--external", example.split('\'').nth(1).unwrap()]);
+    let tables = own.split("\n\n").filter(|part| part.contains("awk"));
+    let example = tables.collect::<Vec<_>>().join("\n\n") + "\n";
+    let mut expected = page.clone();
+    for (old, new) in blocks(&page, "text").iter().zip([example, done(folder.path(), &["bench"])]) {
+        expected = expected.replace(&format!("```text\n{old}```"), &format!("```text\n{new}```"));
+    }
+    if std::env::var_os("NEARWALL_BLESS").is_some() {
+        std::fs::write(PAGE, expected).unwrap();
+    } else {
+        assert_eq!(page, expected, "NEARWALL_BLESS=1 cargo test --test command bench writes it");
+    }
+}
+
+/// A set of a user's own: e_n is 0.4 and 0.6 in turn, and so is the captured share.
+fn planted() -> tempfile::TempDir {
+    let folder = folder(&[]);
+    let set = folder.path().join("sets/planted");
+    std::fs::create_dir_all(&set).unwrap();
+    let rows: String =
+        (1..=20).map(|row| format!("{row},1e-4,{}\n", if row % 2 == 0 { 0.4 } else { 0.6 })).collect();
+    std::fs::write(set.join("data.csv"), format!("v_n,d,e_n\n{rows}")).unwrap();
+    std::fs::write(set.join("base.toml"), WAX).unwrap();
+    folder
+}
+
+/// The line of a table that begins with these words, as cells.
+fn line<'a>(text: &'a str, words: &[&str]) -> Vec<&'a str> {
+    let cells = |line: &'a str| {
+        line.trim().split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect::<Vec<_>>()
+    };
+    text.lines()
+        .map(cells)
+        .find(|cells| cells.starts_with(words))
+        .unwrap_or_else(|| panic!("{words:?}: {text}"))
+}
+
+/// By hand: the mean is 0.50, every reading is 0.10 away from it.
+#[test]
+fn a_set_of_ones_own_is_scored() {
+    let folder = planted();
+    let half =
+        "awk 'NR == 1 { print \"e_n,e_t,p,e_n_low,e_n_high\" } NR > 1 { print \"0.5,0.5,0,0.45,0.65\" }'";
+    let text = done(folder.path(), &["bench", "--external", half, "--data", "sets"]);
+    let planted = line(&text, &["planted", "planted", "e_n"]);
+    assert_eq!(planted[3..7], ["20", "0.50", "0.50", "0.10"], "{text}");
+    assert!(text.contains("its own bands hold"), "{text}");
+    refused(folder.path(), &["bench", "--data", "."], &["sub-folder", "data.csv, base.toml"]);
+}
+
+/// The same numbers from a model file and from another program score the same: there is one way to score.
+#[test]
+fn a_model_and_a_program_with_the_same_numbers_are_equal() {
+    let model = WAX
+        .replace("\"thornton-ning\"\nyield_ratio = 0.7", "\"constant\"\ne_n = 0.65")
+        .replace("0.76", "0.6");
+    let folder = folder(&[("m.toml", &model)]);
+    let constant = "awk 'NR == 1 { print \"e_n,e_t,p\" } NR > 1 { print \"0.65,0.6,0\" }'";
+    let text = done(folder.path(), &["bench", "m.toml", "--external", constant]);
+    let table = text.split("Models and programs").nth(1).unwrap();
+    let [file, program] = ["m.toml", constant].map(|name| {
+        let line = table.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
+        line.trim_start()[name.len()..].trim().to_owned()
+    });
+    assert_eq!(file, program);
+    // Numbers that no source was fitted with cannot be far better than those that were.
+    assert!(file.split_whitespace().last().unwrap().parse::<f64>().unwrap() < 1.0, "{file}");
+}
+
+#[test]
+fn faults_name_the_place_and_the_remedy() {
+    let folder = folder(&[("m.toml", WAX)]);
+    let at = folder.path();
+    refused(at, &["bench", "borns"], &["unknown law `borns`", "did you mean `bons`", "model file"]);
+    refused(at, &["bench", "absent.toml"], &["absent.toml"]);
+    refused(at, &["bench", "--external", "exit 4"], &["--external exit 4", "exit status: 4"]);
+    refused(at, &["bench", "--external", "echo e_n; cat >/dev/null"], &["0 rows for", "in the same order"]);
+    assert_eq!(nearwall(at, &["bench", "--impacts", "m.toml"]).status.code(), Some(2));
+    let table = done(Path::new("."), &["bench", "--impacts"]);
+    assert!(table.starts_with("set,particle,wall,v_n,v_t,omega,d,T_p,"), "{table}");
+}
