@@ -23,6 +23,8 @@ mod licences;
 mod map;
 mod pages;
 mod published;
+#[cfg(unix)]
+mod readme;
 mod real_measurements;
 mod recorded;
 mod report;

@@ -9,8 +9,13 @@ use crate::diagnose::benchmark::{
 /// Ranges of inputs that are shown.
 const RANGES: usize = 3;
 
-/// The result as text; `chosen` are the entries whose failures are shown, each with its ranges of inputs.
-pub fn text(result: &BenchmarkResult, chosen: &[(&BenchmarkEntry, Vec<Shortfall>)]) -> String {
+/// The result as text; `chosen` are the entries whose sets are shown, each with its ranges of inputs: all sets, or
+/// those in which it is worse than the level.
+pub fn text(
+    result: &BenchmarkResult,
+    chosen: &[(&BenchmarkEntry, Vec<Shortfall>)],
+    all_sets: bool,
+) -> String {
     let [all, used] = result.readings;
     let sources = result.sources.len();
     let mut text = format!(
@@ -19,7 +24,7 @@ pub fn text(result: &BenchmarkResult, chosen: &[(&BenchmarkEntry, Vec<Shortfall>
          that of the mean of the other sources [nats]. In band: readings of e_n and e_t in the 95 % band of the scatter.\n"
     );
     for (entry, ranges) in chosen {
-        text += &failures(entry, ranges);
+        text += &failures(entry, ranges, all_sets);
     }
     for (kind, caption) in [
         (EntryKind::Whole, "Models and programs, all readings"),
@@ -32,7 +37,7 @@ pub fn text(result: &BenchmarkResult, chosen: &[(&BenchmarkEntry, Vec<Shortfall>
 }
 
 /// The sets of an entry, the worst first, and the ranges of inputs in which it is worse than the level.
-fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall]) -> String {
+fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> String {
     let of_kind = |set: &&SetMeasure| match entry.kind {
         EntryKind::Law(0) => set.observable != "e_t",
         EntryKind::Law(_) => set.observable == "e_t",
@@ -40,6 +45,8 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall]) -> String {
     };
     let mut sets: Vec<&SetMeasure> = entry.sets.iter().filter(of_kind).collect();
     sets.sort_by(|a, b| a.measure.gain.total_cmp(&b.measure.gain));
+    let count = sets.len();
+    sets.retain(|set| all_sets || set.measure.gain < 0.0);
     let row = |set: &&SetMeasure| {
         let [measured, predicted] = set.means.map(short);
         let label = if set.observable == "outcome" { "captured" } else { set.observable };
@@ -51,6 +58,9 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall]) -> String {
     let header = ["set", "source", "", "readings", "measured", "predicted", "rms", "in band", "beyond level"];
     let caption = format!("{}, the worst set first", entry.name);
     let mut text = Table::new(&caption, 3, &header, sets.iter().map(row).collect()).text();
+    if sets.len() < count {
+        text += &format!("  better than the level in the {} others\n", count - sets.len());
+    }
     for Shortfall { input, unit, range: [low, high], readings, gain } in ranges.iter().take(RANGES) {
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
         let range = if low == high { number(*low) } else { format!("{} to {}", number(*low), number(*high)) };

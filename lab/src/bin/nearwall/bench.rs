@@ -66,5 +66,5 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     };
     let chosen = result.entries.iter().filter(is_chosen);
     let chosen: Vec<_> = chosen.map(|entry| (entry, benchmark.shortfalls(entry))).collect();
-    crate::print(&benchmark_text(&result, &chosen))
+    crate::print(&benchmark_text(&result, &chosen, own || law.is_some()))
 }
