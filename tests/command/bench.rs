@@ -75,24 +75,34 @@ fn a_set_of_ones_own_is_scored() {
     refused(folder.path(), &["bench", "--data", "."], &["sub-folder", "data.csv, base.toml"]);
 }
 
-/// The same numbers from a model file and from another program score the same: there is one way to score.
+/// The same numbers and bands from a model file with drawn ones and from another program score the same.
 #[test]
 fn a_model_and_a_program_with_the_same_numbers_are_equal() {
-    let model = WAX
-        .replace("\"thornton-ning\"\nyield_ratio = 0.7", "\"constant\"\ne_n = 0.65")
-        .replace("0.76", "0.6");
-    let folder = folder(&[("m.toml", &model)]);
-    let constant = "awk 'NR == 1 { print \"e_n,e_t,p\" } NR > 1 { print \"0.65,0.6,0\" }'";
-    let text = done(folder.path(), &["bench", "m.toml", "--external", constant]);
+    let model = |e_n: f64, e_t: f64| {
+        let law = format!("\"constant\"\ne_n = {e_n}");
+        WAX.replace("\"thornton-ning\"\nyield_ratio = 0.7", &law).replace("0.76", &e_t.to_string())
+    };
+    let folder = folder(&[("m.toml", &model(0.65, 0.6))]);
+    std::fs::create_dir(folder.path().join("draws")).unwrap();
+    for (name, [e_n, e_t]) in [("a.toml", [0.4, 0.5]), ("b.toml", [0.9, 0.7])] {
+        std::fs::write(folder.path().join("draws").join(name), model(e_n, e_t)).unwrap();
+    }
+    std::fs::write(folder.path().join("law.awk"), CONSTANT).unwrap();
+    let program = "awk -f law.awk";
+    let text = done(folder.path(), &["bench", "m.toml", "--draws", "draws", "--external", program]);
     let table = text.split("Models and programs").nth(1).unwrap();
-    let [file, program] = ["m.toml", constant].map(|name| {
+    let [by_file, by_program] = ["m.toml", program].map(|name| {
         let line = table.lines().find(|line| line.trim_start().starts_with(name)).unwrap();
         line.trim_start()[name.len()..].trim().to_owned()
     });
-    assert_eq!(file, program);
-    // Numbers that no source was fitted with cannot be far better than those that were.
-    assert!(file.split_whitespace().last().unwrap().parse::<f64>().unwrap() < 1.0, "{file}");
+    assert_eq!(by_file, by_program);
+    let bands: Vec<&str> = text.lines().filter(|line| line.contains("its own bands hold")).collect();
+    assert!(bands.len() == 2 && bands[0] == bands[1], "{bands:?}");
 }
+
+/// A law without physics, as another program.
+const CONSTANT: &str = "NR == 1 { print \"e_n,e_t,p,e_n_low,e_n_high,e_t_low,e_t_high\"; next }\n\
+                        { print \"0.65,0.6,0,0.4,0.9,0.5,0.7\" }\n";
 
 #[test]
 fn faults_name_the_place_and_the_remedy() {

@@ -138,7 +138,9 @@ fn measures(observable: usize, measure: Option<&BenchmarkMeasure>) -> Vec<String
 
 /// A difference of log scores with two decimals.
 fn nats(value: f64) -> String {
-    if value.is_finite() { format!("{value:+.2}") } else { "–".to_owned() }
+    let rounded = (100.0 * value).round() / 100.0;
+    // Adding zero takes the sign off a negative one.
+    if value.is_finite() { format!("{:+.2}", rounded + 0.0) } else { "–".to_owned() }
 }
 
 fn short(value: f64) -> String {

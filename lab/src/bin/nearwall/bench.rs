@@ -1,10 +1,12 @@
 //! `nearwall bench`: laws, models and other programs on every measured set of the project.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use nearwall::Model;
 use nearwall::input::{Document, unknown};
 use nearwall_lab::diagnose::benchmark::{Benchmark, BenchmarkEntry, EntryKind};
 use nearwall_lab::report::benchmark_text;
+use nearwall_lab::rig::DrawnModels;
 
 use crate::CommandResult;
 
@@ -29,6 +31,9 @@ pub struct Arguments {
     /// A program that turns a table of impacts into one of e_n, e_t and p; run by `sh`
     #[arg(long, value_name = "COMMAND")]
     external: Option<String>,
+    /// Folder of model files that `nearwall diagnose --draws` wrote: tells how many readings lie in the model's bands
+    #[arg(long, value_name = "FOLDER", requires = "model")]
+    draws: Option<PathBuf>,
     /// Folder with further measured sets: sub-folders with data.csv, base.toml and, if needed, columns.toml
     #[arg(long, value_name = "FOLDER")]
     data: Option<PathBuf>,
@@ -40,7 +45,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> CommandResult {
     let names = Benchmark::law_names();
     let named = arguments.model.as_deref();
-    let is_file = |name: &str| std::path::Path::new(name).is_file() || name.ends_with(".toml");
+    let is_file = |name: &str| Path::new(name).is_file() || name.ends_with(".toml");
     let (file, law) = (named.filter(|name| is_file(name)), named.filter(|name| !is_file(name)));
     if let Some(law) = law.filter(|law| !names.contains(law)) {
         return Err(format!("{}; or give a model file", unknown(law, "law", &names)).into());
@@ -51,8 +56,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         return crate::print(&benchmark.impacts()?);
     }
     if let Some(file) = &file {
-        nearwall::Model::from_toml(file.name(), file.text())?;
-        benchmark.add_model(file.name(), file.text())?;
+        benchmark.add_model(file.name(), file.text(), &drawn_texts(file, arguments.draws.as_deref())?)?;
     }
     if let Some(command) = &arguments.external {
         benchmark.add_external(command)?;
@@ -67,4 +71,12 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let chosen = result.entries.iter().filter(is_chosen);
     let chosen: Vec<_> = chosen.map(|entry| (entry, benchmark.shortfalls(entry))).collect();
     crate::print(&benchmark_text(&result, &chosen, own || law.is_some()))
+}
+
+/// The texts of the models that were drawn from the fit of a model, which is checked; none without a folder.
+fn drawn_texts(file: &Document, folder: Option<&Path>) -> CommandResult<Vec<String>> {
+    let model = Model::from_toml(file.name(), file.text())?;
+    let drawn = folder.map(|folder| DrawnModels::from_folder(folder, &model)).transpose()?;
+    let files = drawn.into_iter().flat_map(|drawn| drawn.files);
+    Ok(files.map(std::fs::read_to_string).collect::<Result<_, _>>()?)
 }

@@ -4,12 +4,14 @@ use nearwall::model::Model;
 use toml_edit::DocumentMut;
 
 use super::super::forecast::{Forecast, Prediction};
+use super::super::likelihood::{Offset, mean};
 use super::super::observable::Observable;
 use super::external::{ExternalAnswer, ask};
 use super::laws::{NamedLaw, Numbers, with_laws};
 use super::read_set::ReadSet;
 use super::{BenchmarkError, EntryKind};
 use crate::diagnose::fault;
+use crate::rig::Band;
 
 /// The answers of a law with certain numbers to every set.
 pub(super) struct Trial {
@@ -59,6 +61,25 @@ impl Contestant {
         whole.decided = models.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();
         whole.trials.push(Trial { numbers: Numbers::new(), forecasts: forecasts(&models, sets) });
         Ok(whole)
+    }
+
+    /// The same with the bands of drawn models, whose texts these are.
+    pub fn with_draws(self, texts: &[String], sets: &[ReadSet]) -> Result<Self, BenchmarkError> {
+        let forecasts_of = |text: &String| {
+            let laws: DocumentMut = text.parse()?;
+            Ok(forecasts(&models_of(sets, |base| Ok(with_laws(base, &laws)?))?, sets))
+        };
+        let drawn = texts.iter().map(forecasts_of).collect::<Result<Vec<_>, BenchmarkError>>()?;
+        let band = |set: usize, row: usize| {
+            let means: Vec<[f64; 2]> =
+                drawn.iter().map(|one| mean(one[set].of(row), &Offset::default()).restitution).collect();
+            [0, 1].map(|which| {
+                let Band { low, high, .. } = Band::of(means.iter().map(|mean| mean[which]).collect());
+                [low, high]
+            })
+        };
+        let of_set = |(place, set): (usize, &ReadSet)| (0..set.count()).map(|row| band(place, row)).collect();
+        Ok(Self { bands: Some(sets.iter().enumerate().map(of_set).collect()), ..self })
     }
 
     /// Another program, which answers all readings in one run.

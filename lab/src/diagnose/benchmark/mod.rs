@@ -15,6 +15,7 @@ mod reading;
 mod score;
 mod shortfall;
 
+use std::collections::BTreeSet;
 use std::path::Path;
 
 use super::observable::Observable;
@@ -111,18 +112,21 @@ impl Benchmark {
         Ok(Self { sets, sources, contestants })
     }
 
-    /// The names of the laws of the library.
+    /// The names of the laws of the library, each once.
     #[must_use]
     pub fn law_names() -> Vec<&'static str> {
-        named_laws().iter().map(|law| law.name).collect()
+        let names: BTreeSet<&'static str> = named_laws().iter().map(|law| law.name).collect();
+        names.into_iter().collect()
     }
 
-    /// Adds the laws of a model file; `name` is that of the file, `text` its content.
+    /// Adds the laws of a model file; `name` is that of the file, `text` its content, `drawn` the texts of models
+    /// that were drawn from its fit, for its bands; possibly none.
     ///
     /// # Errors
     /// [`BenchmarkError::Toml`], [`BenchmarkError::NothingDecided`].
-    pub fn add_model(&mut self, name: &str, text: &str) -> Result<(), BenchmarkError> {
-        self.add(Contestant::model(name, text, &self.sets)?)
+    pub fn add_model(&mut self, name: &str, text: &str, drawn: &[String]) -> Result<(), BenchmarkError> {
+        let model = Contestant::model(name, text, &self.sets)?;
+        self.add(if drawn.is_empty() { model } else { model.with_draws(drawn, &self.sets)? })
     }
 
     /// Adds another program.
@@ -182,7 +186,7 @@ mod tests {
     fn a_source_is_scored_with_the_scatter_and_the_level_of_the_other() {
         let sets = vec![source("a", [0.4, 0.6]), source("b", [0.6, 0.8])];
         let mut benchmark = Benchmark::of_sets(sets, &[]).unwrap();
-        benchmark.add_model("half", MODEL).unwrap();
+        benchmark.add_model("half", MODEL, &[]).unwrap();
         let result = benchmark.run();
         assert_eq!((result.readings, result.sources.len()), ([60, 60], 2));
         let [level, half] = result.entries.as_slice() else { panic!("{:?}", result.entries.len()) };
