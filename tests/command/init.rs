@@ -72,7 +72,7 @@ fn the_vane_catches_what_melts() {
         .as_array()
         .unwrap()
         .iter()
-        .map(|run| run["ends"]["captured"]["count"].as_f64().unwrap())
+        .map(|run| run["stuck"]["count"].as_f64().unwrap())
         .collect();
     assert!(stuck.last() > Some(&(3.0 * stuck[0])), "{stuck:?}");
 }
