@@ -104,6 +104,22 @@ fn a_model_and_a_program_with_the_same_numbers_are_equal() {
 const CONSTANT: &str = "NR == 1 { print \"e_n,e_t,p,e_n_low,e_n_high,e_t_low,e_t_high\"; next }\n\
                         { print \"0.65,0.6,0,0.4003,0.9003,0.5003,0.7003\" }\n";
 
+/// What fitted a model is no test of it, nor is any other reading of that source.
+#[test]
+fn the_source_of_a_fit_is_left_out() {
+    let folder = folder(&[]);
+    done(folder.path(), &["init", "laboratory", "."]);
+    done(folder.path(), &["diagnose", "measured.csv", "--model", "base.toml", "--out", "out"]);
+    let [base, extended] =
+        ["base.toml", "out/extended.toml"].map(|model| done(folder.path(), &["bench", model]));
+    assert!(base.contains("Troiano") && !base.contains("left out"), "{base}");
+    assert!(!extended.contains("Troiano"), "{extended}");
+    assert!(
+        extended.contains("wax-on-pyrex: its rows fitted the model, so its source is left out"),
+        "{extended}"
+    );
+}
+
 #[test]
 fn faults_name_the_place_and_the_remedy() {
     let folder = folder(&[("m.toml", WAX)]);

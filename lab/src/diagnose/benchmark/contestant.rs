@@ -3,6 +3,7 @@
 use nearwall::model::Model;
 use toml_edit::DocumentMut;
 
+use super::super::fitted_rows::FittedRows;
 use super::super::forecast::{Forecast, Prediction};
 use super::super::likelihood::{Offset, mean};
 use super::super::observable::Observable;
@@ -53,14 +54,28 @@ impl Contestant {
         let laws: DocumentMut = text.parse()?;
         let mut whole = Self::empty(name.to_owned(), EntryKind::Whole);
         let models = models_of(sets, |base| Ok(with_laws(base, &laws)?))?;
-        let refused = models
-            .iter()
-            .zip(sets)
-            .find_map(|(model, set)| Some(format!("{}: {}", set.name, model.as_ref().err()?)));
-        whole.refusal = refused;
+        let reason =
+            |(model, set): (&SetModel, &ReadSet)| Some(format!("{}: {}", set.name, model.as_ref().err()?));
+        whole.refusal = models.iter().zip(sets).find_map(reason);
         whole.decided = models.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();
+        whole.leave_out_fitted(text, sets);
         whole.trials.push(Trial { numbers: Numbers::new(), forecasts: forecasts(&models, sets) });
         Ok(whole)
+    }
+
+    /// Decides nothing of the sources of which some rows fitted the model, as its text states.
+    fn leave_out_fitted(&mut self, text: &str, sets: &[ReadSet]) {
+        let rows = FittedRows::stated(text);
+        let fitted: Vec<&ReadSet> = sets.iter().filter(|set| set.fitted(&rows)).collect();
+        for (decided, set) in self.decided.iter_mut().zip(sets) {
+            if fitted.iter().any(|one| one.source == set.source) {
+                decided.fill(false);
+            }
+        }
+        let reason =
+            |set: &&ReadSet| format!("{}: its rows fitted the model, so its source is left out", set.name);
+        let reasons: Vec<String> = fitted.iter().map(reason).chain(self.refusal.take()).collect();
+        self.refusal = (!reasons.is_empty()).then(|| reasons.join("; "));
     }
 
     /// The same with the bands of drawn models, whose texts these are.

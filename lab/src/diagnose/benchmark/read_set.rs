@@ -6,11 +6,12 @@ use nearwall::model::Model;
 
 use super::super::constants::ROW_DRAWS;
 use super::super::data_split::DataSplit;
+use super::super::fitted_rows::{FittedRows, first_line};
 use super::super::observable::Observable;
 use super::BenchmarkError;
 use super::measured_set::MeasuredSet;
 use super::reading::readings;
-use crate::dataset::Measurement;
+use crate::dataset::{Measurement, Measurements};
 
 /// A measured set as readings.
 pub(super) struct ReadSet {
@@ -23,8 +24,8 @@ pub(super) struct ReadSet {
     pub data: DataSplit,
     /// What each reading is of.
     pub observables: Vec<Observable>,
-    /// The inputs that the table states.
-    pub given: Vec<&'static str>,
+    /// The table.
+    measured: Measurements,
 }
 
 impl ReadSet {
@@ -42,7 +43,7 @@ impl ReadSet {
             sources.len() - 1
         });
         let data = DataSplit::bare(&model, &rows, ROW_DRAWS);
-        Ok(Self { name: set.name, source, base: set.base.into_owned(), data, observables, given: read.given })
+        Ok(Self { name: set.name, source, base: set.base.into_owned(), data, observables, measured: read })
     }
 
     /// Number of readings.
@@ -52,7 +53,13 @@ impl ReadSet {
 
     /// Whether the table states an input, with which a law may fail.
     pub fn states(&self, input: &str) -> bool {
-        self.given.contains(&input)
+        self.measured.given.contains(&input)
+    }
+
+    /// Whether some of its rows are among those that fitted a model.
+    pub fn fitted(&self, rows: &FittedRows) -> bool {
+        let first = first_line(&self.measured);
+        self.measured.rows.iter().any(|row| rows.contains(row, first))
     }
 }
 

@@ -118,7 +118,8 @@ impl Benchmark {
         let decided = |set: usize, row: usize| self.contestants.iter().all(|one| one.decided[set][row]);
         let rows = self.sets.iter().enumerate();
         let rows = rows.map(|(place, set)| (0..set.count()).filter(|&row| decided(place, row)).collect());
-        let common = Common { sets: &self.sets, rows: rows.collect(), sources: self.sources.len() };
+        let mut common = Common { sets: &self.sets, rows: rows.collect(), sources: self.sources.len() };
+        common.leave_out_lone_observables();
         let level = common.level();
         let mut entries = vec![common.entry("level", EntryKind::Level, &level, &level, &self.sources)];
         for one in &self.contestants {
@@ -142,6 +143,22 @@ impl Common<'_> {
     /// The sets of a source.
     fn places(&self, source: usize) -> impl Iterator<Item = usize> {
         self.sets.iter().enumerate().filter(move |(_, set)| set.source == source).map(|(place, _)| place)
+    }
+
+    /// Leaves out what only one source has readings of: there is nothing to fit to.
+    fn leave_out_lone_observables(&mut self) {
+        for observable in Observable::ALL {
+            let has =
+                |set: usize| self.rows[set].iter().any(|&row| self.sets[set].observables[row] == observable);
+            let count = (0..self.sources).filter(|source| self.places(*source).any(has)).count();
+            if count < 2 {
+                let others = |set: &ReadSet, row: usize| set.observables[row] != observable;
+                self.rows
+                    .iter_mut()
+                    .zip(self.sets)
+                    .for_each(|(rows, set)| rows.retain(|&row| others(set, row)));
+            }
+        }
     }
 
     /// The mean over the sources but one of the mean of their values; `None` without any.
