@@ -78,6 +78,22 @@ impl Table {
         Self { caption: caption.to_owned(), header, rows, text_columns }
     }
 
+    /// The table for a terminal: columns of equal width under the caption.
+    pub fn text(&self) -> String {
+        let mut text = format!("\n{}\n", self.caption);
+        let lines = std::iter::once(&self.header).chain(&self.rows);
+        let width = |column: usize| {
+            let cells = lines.clone().filter_map(|line| line.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.header.len()).map(width).collect();
+        for line in lines.clone() {
+            let padded = line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
+            text += &format!("  {}\n", padded.collect::<Vec<_>>().join("  ").trim_end());
+        }
+        text
+    }
+
     /// A table with a row for each item; a column is its head and the text that it shows of an item.
     pub fn of_items<T>(
         caption: &str,

@@ -36,17 +36,9 @@ pub struct Arguments {
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
-    /// Rig whose data are compared; not supported yet
-    #[arg(long, value_name = "CASE.toml")]
-    case: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
-    if let Some(case) = &arguments.case {
-        let problem =
-            "data of rigs are not supported yet; leave out --case to compare models on single impacts";
-        return Err(format!("--case {}: {problem}", case.display()).into());
-    }
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let files: Vec<Document> =
         arguments.models.iter().map(|path| Document::from_file(path)).collect::<Result<_, _>>()?;

@@ -1,8 +1,10 @@
 //! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
 
+mod bench;
 mod check;
 mod compare;
 mod diagnose;
+mod init;
 mod map;
 mod materials;
 mod predict;
@@ -36,9 +38,11 @@ macro_rules! subcommands {
 }
 
 subcommands! {
+    Init: init,
     Predict: predict,
     Diagnose: diagnose,
     Compare: compare,
+    Bench: bench,
     Simulate: simulate,
     Sensitivity: sensitivity,
     Map: map,
