@@ -22,11 +22,11 @@ const PLACES: [usize; 2] = [40, 12];
 /// Places of each parameter of a threshold on the grid of its intervals.
 const FINE_PLACES: usize = 80;
 /// Range of the exponent of a power [1].
-const EXPONENTS: [f64; 2] = [-4.0, 4.0];
+pub(super) const EXPONENTS: [f64; 2] = [-4.0, 4.0];
 /// Range of the steepness of a threshold [1].
-const STEEPNESS: [f64; 2] = [1.0, 200.0];
+pub(super) const STEEPNESS: [f64; 2] = [1.0, 200.0];
 /// A scale of the column may lie beyond its range by this factor [1].
-const BEYOND: f64 = 10.0;
+pub(super) const BEYOND: f64 = 10.0;
 /// Points that choose among these places.
 const COARSE_POINTS: usize = 200;
 /// Iterations a parameter of a descent.

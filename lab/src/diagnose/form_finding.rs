@@ -87,19 +87,35 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
     let observable = curve.form.observable;
     let fit = FormFit::new(hypothesis, curve, closed);
-    let record = CauseForm {
+    let seen = hypothesis.data.range(&column.name);
+    let line = seen.map(|seen| fit.line(seen)).unwrap_or_default();
+    let all: Vec<Rated> = forms(curve, &fit.rows);
+    let tried: Vec<(&'static str, f64)> = all.iter().map(|(form, cost)| (form.info.name, -cost)).collect();
+    Some(record(closed, observable, (&column.name, column.unit), (seen, line), &tried))
+}
+
+/// What a finding says of a form over a column with its unit; `tried` are the forms that were compared, with the
+/// logarithm of the evidence of each [nats].
+pub(super) fn record(
+    closed: &ClosedForm,
+    observable: Observable,
+    (column, unit): (&str, &'static str),
+    (seen, line): (Option<[f64; 2]>, Vec<FormPoint>),
+    tried: &[(&'static str, f64)],
+) -> CauseForm {
+    let (probability, others) = probabilities(closed.info.name, tried);
+    CauseForm {
         observable: observable.name(),
         form: closed.info.name,
         acts: closed.acts.name(),
-        equation: equation(closed, observable, &column.name),
-        parameters: closed.estimates(column.unit).collect(),
-        seen: hypothesis.data.range(&column.name),
-        line: hypothesis.data.range(&column.name).map(|seen| fit.line(seen)).unwrap_or_default(),
-        probability: 1.0,
-        others: Vec::new(),
-        resembles: resemblance(closed, observable, &column.name),
-    };
-    Some(with_probabilities(record, curve, &fit.rows))
+        equation: equation(closed, observable, column),
+        parameters: closed.estimates(unit).collect(),
+        seen,
+        line,
+        probability,
+        others,
+        resembles: resemblance(closed, observable, column),
+    }
 }
 
 /// Sets the intervals of the parameters of every closed form.
@@ -156,7 +172,7 @@ impl<'a, 'b> FormFit<'a, 'b> {
 }
 
 /// Places over a range and beyond: by a factor where the range is positive and wide, else by half of its width.
-fn places([low, high]: [f64; 2]) -> Vec<f64> {
+pub(super) fn places([low, high]: [f64; 2]) -> Vec<f64> {
     let is_wide = low > 0.0 && high > WIDE * low;
     let [from, to] = if is_wide {
         [(low / BEYOND_SEEN).ln(), (high * BEYOND_SEEN).ln()]
@@ -181,25 +197,22 @@ fn quantile(hypothesis: &Hypothesis<'_>, closed: &ClosedForm) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(2.0, |law| law.inverse_cdf(0.975))
 }
 
-/// The probability of the form among all forms on rows without the curve, and the others.
-fn with_probabilities(mut record: CauseForm, curve: &ColumnCurve, rows: &Evaluation<'_>) -> CauseForm {
-    let all: Vec<Rated> = forms(curve, rows);
+/// The probability of a form among all that were tried, and the others.
+fn probabilities(own: &str, tried: &[(&'static str, f64)]) -> (f64, Vec<OtherForm>) {
     let best = |name: &str| {
-        let own = all.iter().filter(|(form, _)| form.info.name == name).map(|(_, cost)| *cost);
-        own.fold(f64::INFINITY, f64::min)
+        let of_name = tried.iter().filter(|(form, _)| *form == name).map(|(_, evidence)| *evidence);
+        of_name.fold(f64::NEG_INFINITY, f64::max)
     };
-    let least = all.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
-    let names: std::collections::BTreeSet<&'static str> =
-        all.iter().map(|(form, _)| form.info.name).collect();
-    let weight = |name: &str| (least - best(name)).exp();
+    let most = tried.iter().map(|(_, evidence)| *evidence).fold(f64::NEG_INFINITY, f64::max);
+    let names: std::collections::BTreeSet<&'static str> = tried.iter().map(|(name, _)| *name).collect();
+    let weight = |name: &str| (best(name) - most).exp();
     let total: f64 = names.iter().map(|name| weight(name)).sum();
     let share = |name: &str| rounded(weight(name) / total.max(f64::MIN_POSITIVE));
-    record.probability = share(record.form);
-    let others = names.iter().filter(|name| **name != record.form);
+    let others = names.iter().filter(|name| **name != own);
     let others = others.map(|name| OtherForm { form: name, probability: share(name) });
-    record.others = others.filter(|other| other.probability > LEAST_LISTED).collect();
-    record.others.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    record
+    let mut others: Vec<OtherForm> = others.filter(|other| other.probability > LEAST_LISTED).collect();
+    others.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    (if names.is_empty() { 1.0 } else { share(own) }, others)
 }
 
 /// The law that a form resembles.

@@ -3,6 +3,7 @@
 use super::super::constants::Effort;
 use super::super::explanation::{Explained as _, explore};
 use super::super::explanations::{Explanations, Told};
+use super::super::record::FormPoint;
 use super::addition::{RigAddition, keys};
 use super::rig_search::{RigExplanation, RigSearch};
 use super::significance::NullGains;
@@ -17,6 +18,8 @@ pub(super) struct Named {
     pub gain: f64,
     /// Corrected for all candidates.
     pub p_value: f64,
+    /// Of a closed form its values with a 95 % band, after the final fit.
+    pub line: Vec<FormPoint>,
 }
 
 /// What was chosen.
@@ -63,7 +66,7 @@ impl RigChoice {
             let addition = rest.remove(place);
             let without = study.score(&study.fit(&rest, weights), weights);
             let gain = all - without - addition.axes.len() as f64;
-            self.named.push(Named { addition, gain, p_value: null.p_value(gain) });
+            self.named.push(Named { addition, gain, p_value: null.p_value(gain), line: Vec::new() });
         }
     }
 

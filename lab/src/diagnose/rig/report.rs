@@ -4,19 +4,21 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::constants::REFUTED;
-use super::super::finding::sigma;
+use super::super::finding::{equation, group_words, sigma};
+use super::super::form_finding;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined, Options, Rows,
+    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, LargeMisfit, NotExamined, Options, Rows,
 };
 use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::blame::{self, Blame, Parties};
-use super::candidates::range;
 use super::choice::{Named, RigChoice};
+use super::form::RigForm;
 use super::gain::{HeldOutExperiments, predict_file};
+use super::inputs::Over;
 use super::next::{NextExperiment, table};
 use super::noise::{FittedScatter, Noise};
 use super::prediction_table::predict;
@@ -167,8 +169,8 @@ impl RigFindings<'_> {
         let first = findings.first().map_or("", |finding| finding.observable);
         let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
         let nothing = choice.named.is_empty() && self.refuted.is_empty();
-        let range_of = |input: &str| range(study.forward, input);
-        let mut left_out = not_examined(study.forward.base(0), range_of, "over the impacts");
+        let range = |input: &str| study.inputs.range(input);
+        let mut left_out = not_examined(study.forward.base(0), range, "over the impacts");
         if study.forward.case_numbers().is_empty() {
             left_out.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
         }
@@ -263,7 +265,7 @@ impl RigFindings<'_> {
     }
 
     fn finding(&self, named: &Named) -> Result<Finding, PredictionError> {
-        let Named { addition, gain, p_value } = named;
+        let Named { addition, gain, p_value, line } = named;
         let (gain, p_value) = (*gain, *p_value);
         let explanations = &self.choice.explanations;
         let curve = addition.fitted_curve().map(|curve| CauseCurve {
@@ -286,7 +288,7 @@ impl RigFindings<'_> {
             probability: explanations.probability(&cause),
             certainty: explanations.certainty(&cause),
             lack_of_fit: None,
-            not_separable: Vec::new(),
+            not_separable: addition.over().map(together).into_iter().flatten().collect(),
             p_value,
             q_value: p_value,
             parameters: addition.estimates().into_iter().collect(),
@@ -294,7 +296,7 @@ impl RigFindings<'_> {
             indistinguishable_from: explanations.in_stead_of(&cause),
             measure_next: Vec::new(),
             curve,
-            forms: Vec::new(),
+            forms: form(addition, line).into_iter().collect(),
             surface: None,
             explanation: String::new(),
             cause,
@@ -387,13 +389,33 @@ fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
     )
 }
 
+/// What is said of a closed form.
+fn form(addition: &RigAddition, line: &[FormPoint]) -> Option<CauseForm> {
+    let RigForm { over, tried, .. } = addition.as_form()?;
+    let observable = addition.as_form()?.observable();
+    let column = (over.name.as_str(), over.unit);
+    let seen = (Some(over.seen), line.to_vec());
+    Some(form_finding::record(&addition.closed_form()?, observable, column, seen, tried))
+}
+
+/// Which inputs and groups cannot be told from that of a curve, as a sentence.
+fn together(over: &Over) -> Option<String> {
+    let others = over.also.split_last().map(|(last, rest)| match rest {
+        [] => last.clone(),
+        rest => format!("{} and {last}", rest.join(", ")),
+    })?;
+    Some(format!("In these experiments {others} change together with {}: a curve over one is a curve over the others.", over.name))
+}
+
 /// A finding in a few sentences.
 fn explain(finding: &Finding) -> String {
     let known = EFFECTS.iter().find(|effect| effect.id == finding.cause);
     let what = match (known, finding.cause.split_once(':')) {
         (Some(effect), _) => format!("{}: {}.", effect.id, effect.about),
         (None, Some(("unknown", input))) => {
-            format!("What the rig shows depends on {input} in a way that no effect of the library explains.")
+            let what = group_words(input).map_or_else(|| input.to_owned(), |group| format!("the {group}"));
+            let forms: String = finding.forms.iter().map(equation).collect();
+            format!("What the rig shows depends on {what} in a way that no effect of the library explains.{forms}")
         }
         (None, Some(("level", what))) => format!(
             "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a constant."
