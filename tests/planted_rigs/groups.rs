@@ -65,7 +65,10 @@ pub fn plan(law: &'static str, rng: &mut SetRng) -> Plan {
         "weber-capture" => captured(group, middle * rng.uniform((0.4, 2.5)), rng.uniform((1.0, 3.0))),
         "weber-threshold" => captured(group, middle * rng.uniform((0.1, 0.5)), rng.uniform((5.0, 30.0))),
         "sticking-speed-capture" => captured(group, middle * rng.uniform((0.4, 1.5)), rng.uniform((2.0, 6.0))),
-        _ => slowed(group, middle, rng.uniform((0.1, 0.35))),
+        _ => {
+            let least = group(&Inputs { v_n: 0.9 * speeds.0, d: sizes.0, ..Inputs::default() });
+            slowed(group, least, rng.uniform((0.1, 0.35)))
+        }
     };
     lab.truth.plants.push(std::sync::Arc::new(plant));
     let names = vec![if is_drop { "unknown:We" } else { "unknown:v_n/v_s" }];
@@ -88,9 +91,9 @@ fn captured(group: impl Fn(&Inputs) -> f64 + Send + Sync + 'static, at: f64, ste
     })
 }
 
-/// `e_n (x/x_0)^-b`, at most 1.2.
+/// `e_n (x/x_0)^-b` with an `x_0` below nearly all impacts.
 fn slowed(group: impl Fn(&Inputs) -> f64 + Send + Sync + 'static, at: f64, exponent: f64) -> Plant {
-    Plant::normal("unknown", move |x, _, n| n.e_n *= (group(x) / at).powf(-exponent).min(1.2))
+    Plant::normal("unknown", move |x, _, n| n.e_n *= 
 }
 
 /// What a diagnosis says of the group.
@@ -118,7 +121,7 @@ pub fn judge(set: &Set, diagnosis: &Value, judged: Judgement) -> GroupJudgement 
         let words = sentence.as_str().unwrap_or_default().split([' ', ',', ':']);
         words.into_iter().any(|word| word == group)
     };
-    let open = list("explanations").iter().flat_map(|one| inner(one, "causes")).chain(list("undecided"));
+    let open = list("explanations").into_iter().flat_map(|one| inner(&one, "causes")).chain(list("undecided"));
     let listed = named
         || open.into_iter().any(|name| is_right(&name))
         || findings.iter().flat_map(|one| inner(one, "not_separable")).any(|one| is_together(&one));

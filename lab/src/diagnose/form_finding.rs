@@ -253,6 +253,7 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
     }
     let formula = closed.info.equation.split(", ").next().unwrap_or_default();
     let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
+    let value = twice_negative(&value).unwrap_or(value);
     let formula = match closed.acts {
         CurveForm::Set => format!("{name} = {value}"),
         CurveForm::Add => format!("{name} = base + ({value})"),
@@ -260,6 +261,13 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         CurveForm::Times => format!("{name} = base ({value})"),
     };
     if is_plain { formula } else { format!("{formula} with x = {column}") }
+}
+
+/// An equation without a power `^-(-n)`; `None` where there is none.
+fn twice_negative(equation: &str) -> Option<String> {
+    let (before, rest) = equation.split_once("^-(-")?;
+    let (exponent, after) = rest.split_once(')')?;
+    Some(format!("{before}^{exponent}{after}"))
 }
 
 /// How steep a threshold is [1]; 0 for another form.

@@ -123,6 +123,12 @@ impl RigAddition {
         }
     }
 
+    /// The id of the cause, and of curves that describe the same dependence.
+    pub fn names(&self) -> Vec<String> {
+        let others = self.over().into_iter().flat_map(|over| &over.overlapping);
+        std::iter::once(self.name()).chain(others.map(|name| format!("unknown:{name}"))).collect()
+    }
+
     /// Tells it from all other additions: a curve over one input may act on several observables.
     pub fn key(&self) -> String {
         match &self.kind {

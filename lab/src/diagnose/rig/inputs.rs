@@ -14,6 +14,9 @@ use crate::rig::Forward;
 const LEAST_INPUT_CHANGE: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
+/// Correlation of their order from which curves over two inputs describe one dependence: each tells four fifths of the
+/// variance of the other.
+const OVERLAP: f64 = 0.9;
 
 /// An input or a group over which a curve could be seen.
 #[derive(Debug, Clone)]
@@ -28,6 +31,8 @@ pub(super) struct Over {
     pub middle: f64,
     /// Others that change together with it from experiment to experiment.
     pub also: Vec<String>,
+    /// Others over which a curve describes the same dependence, though the experiments may tell them apart.
+    pub overlapping: Vec<String>,
 }
 
 impl Over {
@@ -83,9 +88,9 @@ impl Spread {
     /// group, which may be any power of the other one, in their order.
     fn is_together(&self, other: &Self) -> bool {
         if self.input.is_group() {
-            correlated(&ranks(&self.means), &ranks(&other.means))
+            correlation(&ranks(&self.means), &ranks(&other.means)) > TOGETHER
         } else {
-            correlated(&self.means, &other.means)
+            correlation(&self.means, &other.means) > TOGETHER
         }
     }
 
@@ -100,7 +105,8 @@ impl Spread {
             _ => "1",
         };
         let middle = if inside { middle } else { 0.5 * (low + high) };
-        Over { input: self.input, name: self.name.clone(), unit, seen: [low, high], middle, also }
+        let overlapping = Vec::new();
+        Over { input: self.input, name: self.name.clone(), unit, seen: [low, high], middle, also, overlapping }
     }
 }
 
@@ -164,7 +170,16 @@ impl RigInputs {
                 None => found.push((one, Vec::new())),
             }
         }
-        found.into_iter().filter_map(|(one, also)| Some(one.over(one.range?, also))).collect()
+        let all: Vec<&Spread> = found.iter().map(|(one, _)| *one).collect();
+        let overlapping = |one: &Spread| {
+            let others = all.iter().filter(|other| other.name != one.name);
+            let near = |other: &&&Spread| correlation(&ranks(&one.means), &ranks(&other.means)) > OVERLAP;
+            others.filter(near).map(|other| other.name.clone()).collect()
+        };
+        let of = |(one, also): (&Spread, Vec<String>)| {
+            Some(Over { overlapping: overlapping(one), ..one.over(one.range?, also) })
+        };
+        found.into_iter().filter_map(of).collect()
     }
 }
 
@@ -174,14 +189,15 @@ fn deviation(values: &[f64]) -> f64 {
     (finite.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / finite.len().max(1) as f64).sqrt()
 }
 
-fn correlated(one: &[f64], other: &[f64]) -> bool {
+/// Size of the correlation of values [1]; NaN where one of them does not vary or is not a number.
+fn correlation(one: &[f64], other: &[f64]) -> f64 {
     let centred = |values: &[f64]| {
         let mean = values.iter().sum::<f64>() / values.len() as f64;
         values.iter().map(|value| value - mean).collect::<Vec<f64>>()
     };
     let (a, b) = (centred(one), centred(other));
     let product = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    product(&a, &b).abs() > TOGETHER * (product(&a, &a) * product(&b, &b)).sqrt()
+    product(&a, &b).abs() / (product(&a, &a) * product(&b, &b)).sqrt()
 }
 
 /// The place of each value in their order, NaN last.

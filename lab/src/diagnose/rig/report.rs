@@ -400,11 +400,12 @@ fn form(addition: &RigAddition, line: &[FormPoint]) -> Option<CauseForm> {
 
 /// Which inputs and groups cannot be told from that of a curve, as a sentence.
 fn together(over: &Over) -> Option<String> {
-    let others = over.also.split_last().map(|(last, rest)| match rest {
-        [] => last.clone(),
-        rest => format!("{} and {last}", rest.join(", ")),
-    })?;
-    Some(format!("In these experiments {others} change together with {}: a curve over one is a curve over the others.", over.name))
+    let [one, others] = ["changes", "change"].map(|verb| format!("{verb} together with {}", over.name));
+    let (who, change) = match over.also.split_last()? {
+        (last, []) => (last.clone(), one),
+        (last, rest) => (format!("{} and {last}", rest.join(", ")), others),
+    };
+    Some(format!("In these experiments {who} {change}: a curve over one is a curve over the others."))
 }
 
 /// A finding in a few sentences.
