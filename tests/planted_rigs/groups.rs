@@ -93,7 +93,7 @@ fn captured(group: impl Fn(&Inputs) -> f64 + Send + Sync + 'static, at: f64, ste
 
 /// `e_n (x/x_0)^-b` with an `x_0` below nearly all impacts.
 fn slowed(group: impl Fn(&Inputs) -> f64 + Send + Sync + 'static, at: f64, exponent: f64) -> Plant {
-    Plant::normal("unknown", move |x, _, n| n.e_n *= 
+    Plant::normal("unknown", move |x, _, n| n.e_n *= (group(x) / at).powf(-exponent))
 }
 
 /// What a diagnosis says of the group.

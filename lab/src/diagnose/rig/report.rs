@@ -451,8 +451,9 @@ const RIG: Words = Words {
 /// The words where nothing is named.
 const NOTHING: Words = Words { subject: "simulation", ..RIG };
 
-/// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says.
-fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> String {
+/// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says. The case alone is at
+/// fault with the probability `alone`.
+fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> String) -> String {
     let (case, law): (Vec<Finding>, Vec<Finding>) =
         diagnosis.findings.iter().cloned().partition(|finding| finding.cause.starts_with("case:"));
     let numbers: Vec<String> = case
@@ -464,14 +465,14 @@ fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> Stri
         .collect();
     let wrong = match numbers.as_slice() {
         [] => return found(diagnosis, &RIG, nothing),
-        [one] => format!("The case is at fault, not the wall: {one} is wrong by more than its error."),
-        several => format!("The case is at fault, not the wall: {} are wrong.", several.join(" and ")),
+        [one] => format!("{one} is wrong by more than its error."),
+        several => format!("{} are wrong by more than their errors.", several.join(" and ")),
     };
     if law.is_empty() && diagnosis.calibration.is_empty() {
-        return wrong;
+        return format!("The case is at fault, not the wall ({}): {wrong}", probability_words(alone));
     }
     let law = Diagnosis { findings: law, ..diagnosis.clone() };
-    wrong.replace(", not the wall", "") + " " + &found(&law, &RIG, String::new)
+    format!("The case is at fault: {wrong} {}", found(&law, &RIG, String::new))
 }
 
 /// The verdict: the result in a few sentences.
@@ -481,8 +482,8 @@ fn verdict(
     (parties, blame): (&Parties, &[Blame]),
 ) -> String {
     let seen = format!("{experiments} experiments with {readings} readings");
-    let mut text =
-        fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, || nothing_found(diagnosis, &NOTHING, &seen));
+    let nothing = || nothing_found(diagnosis, &NOTHING, &seen);
+    let mut text = fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, parties.case, nothing);
     let named: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
     text += &blame::sentences(parties, blame, &named);
     let left = &diagnosis.fit.extended;
