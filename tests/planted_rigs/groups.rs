@@ -18,13 +18,8 @@ use crate::source::{Knob, State};
 use crate::world::Inputs;
 
 /// Every planted dependence.
-pub const LAWS: [&str; 5] = [
-    "weber-capture",
-    "weber-threshold",
-    "weber-rebound",
-    "sticking-speed-capture",
-    "sticking-speed-rebound",
-];
+pub const LAWS: [&str; 5] =
+    ["weber-capture", "weber-threshold", "weber-rebound", "sticking-speed-capture", "sticking-speed-rebound"];
 
 /// A rig on which the law depends on a group.
 pub fn plan(law: &'static str, rng: &mut SetRng) -> Plan {
@@ -40,10 +35,7 @@ pub fn plan(law: &'static str, rng: &mut SetRng) -> Plan {
     } else {
         // Sticking takes place below all of these speeds.
         let sticking = lab.system.contact().sticking_speed(0.5 * middle_size);
-        (
-            range(4.0 * sticking, rng.uniform((2.0, 2.5))),
-            range(middle_size, rng.uniform((1.7, 2.0))),
-        )
+        (range(4.0 * sticking, rng.uniform((2.0, 2.5))), range(middle_size, rng.uniform((1.7, 2.0))))
     };
     lab.source.diameter = State::fixed(middle_size);
     lab.source.speed = State::fixed((speeds.0 * speeds.1).sqrt());
@@ -64,7 +56,9 @@ pub fn plan(law: &'static str, rng: &mut SetRng) -> Plan {
     let plant = match law {
         "weber-capture" => captured(group, middle * rng.uniform((0.4, 2.5)), rng.uniform((1.0, 3.0))),
         "weber-threshold" => captured(group, middle * rng.uniform((0.1, 0.5)), rng.uniform((5.0, 30.0))),
-        "sticking-speed-capture" => captured(group, middle * rng.uniform((0.4, 1.5)), rng.uniform((2.0, 6.0))),
+        "sticking-speed-capture" => {
+            captured(group, middle * rng.uniform((0.4, 1.5)), rng.uniform((2.0, 6.0)))
+        }
         _ => {
             let least = group(&Inputs { v_n: 0.9 * speeds.0, d: sizes.0, ..Inputs::default() });
             slowed(group, least, rng.uniform((0.1, 0.35)))
@@ -121,7 +115,8 @@ pub fn judge(set: &Set, diagnosis: &Value, judged: Judgement) -> GroupJudgement 
         let words = sentence.as_str().unwrap_or_default().split([' ', ',', ':']);
         words.into_iter().any(|word| word == group)
     };
-    let open = list("explanations").into_iter().flat_map(|one| inner(&one, "causes")).chain(list("undecided"));
+    let open =
+        list("explanations").into_iter().flat_map(|one| inner(&one, "causes")).chain(list("undecided"));
     let listed = named
         || open.into_iter().any(|name| is_right(&name))
         || findings.iter().flat_map(|one| inner(one, "not_separable")).any(|one| is_together(&one));
@@ -149,7 +144,9 @@ impl GroupJudgement {
 
 /// Prints the table; what fails.
 pub fn report(all: &[GroupJudgement]) -> Vec<String> {
-    println!("\n| law | sets | seen | named | named or listed | wrong | longest [s] |\n|---|---|---|---|---|---|---|");
+    println!(
+        "\n| law | sets | seen | named | named or listed | wrong | longest [s] |\n|---|---|---|---|---|---|---|"
+    );
     let mut families: BTreeMap<&str, Vec<&GroupJudgement>> = BTreeMap::new();
     all.iter().for_each(|one| families.entry(&one.judged.family).or_default().push(one));
     families.insert("all", all.iter().collect());

@@ -127,7 +127,8 @@ fn rigs_with_a_group() {
         let set = recipe.make(seed);
         let answer = run::run(&set, seed);
         let judged = score::judge(&set, &answer);
-        let judged = groups::judge(&set, answer.diagnosis.as_ref().unwrap_or(&serde_json::Value::Null), judged);
+        let judged =
+            groups::judge(&set, answer.diagnosis.as_ref().unwrap_or(&serde_json::Value::Null), judged);
         println!("{}", judged.line());
         judged
     };

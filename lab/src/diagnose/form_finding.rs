@@ -9,7 +9,7 @@ use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::rounded;
 use super::record::{CauseForm, FormPoint, OtherForm};
-use nearwall::effect::CurveForm;
+use nearwall::effect::Operation;
 
 /// Forms less probable than this are not listed [1].
 const LEAST_LISTED: f64 = 0.02;
@@ -85,22 +85,18 @@ const RESEMBLANCES: [Resemblance; 11] = [
 pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<CauseForm> {
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
-    let observable = curve.form.observable;
-    let fit = FormFit::new(hypothesis, curve, closed);
-    let seen = hypothesis.data.range(&column.name);
-    let line = seen.map(|seen| fit.line(seen)).unwrap_or_default();
-    let all: Vec<Rated> = forms(curve, &fit.rows);
+    let all: Vec<Rated> = forms(curve, &without(hypothesis, curve));
     let tried: Vec<(&'static str, f64)> = all.iter().map(|(form, cost)| (form.info.name, -cost)).collect();
-    Some(record(closed, observable, (&column.name, column.unit), (seen, line), &tried))
+    let seen = hypothesis.data.range(&column.name);
+    Some(record(closed, curve.form.observable, (&column.name, column.unit, seen), &tried))
 }
 
-/// What a finding says of a form over a column with its unit; `tried` are the forms that were compared, with the
+/// What a finding says of a form over a column with its unit and its range; `tried` are the forms that were compared, with the
 /// logarithm of the evidence of each [nats].
 pub(super) fn record(
     closed: &ClosedForm,
     observable: Observable,
-    (column, unit): (&str, &'static str),
-    (seen, line): (Option<[f64; 2]>, Vec<FormPoint>),
+    (column, unit, seen): (&str, &'static str, Option<[f64; 2]>),
     tried: &[(&'static str, f64)],
 ) -> CauseForm {
     let (probability, others) = probabilities(closed.info.name, tried);
@@ -111,24 +107,26 @@ pub(super) fn record(
         equation: equation(closed, observable, column),
         parameters: closed.estimates(unit).collect(),
         seen,
-        line,
+        line: closed.line.clone(),
         probability,
         others,
         resembles: resemblance(closed, observable, column),
     }
 }
 
-/// Sets the intervals of the parameters of every closed form.
+/// Sets the intervals of the parameters and the band of every closed form.
 pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>) {
     let one = |curve: &ColumnCurve| {
         let closed = curve.closed.as_ref()?;
         let fit = FormFit::new(hypothesis, curve, closed);
-        Some(intervals(curve, &fit.freed, &fit.with, fit.quantile))
+        let column = &hypothesis.data.covariates.get(curve.form.sides.first()?.0)?.name;
+        let line = hypothesis.data.range(column).map(|seen| fit.line(seen)).unwrap_or_default();
+        Some((intervals(curve, &fit.freed, &fit.with, fit.quantile), line))
     };
-    let found: Vec<Option<Vec<[f64; 2]>>> = hypothesis.curves.iter().map(one).collect();
+    let found: Vec<_> = hypothesis.curves.iter().map(one).collect();
     for (curve, found) in hypothesis.curves.iter_mut().zip(found) {
         if let (Some(closed), Some(found)) = (&mut curve.closed, found) {
-            closed.intervals = found;
+            (closed.intervals, closed.line) = found;
         }
     }
 }
@@ -139,8 +137,7 @@ struct FormFit<'a, 'b> {
     closed: &'a ClosedForm,
     /// The form with its defaults fitted too: the data do not know that they are right.
     freed: ClosedForm,
-    /// The fitted rows without and with the form.
-    rows: Evaluation<'b>,
+    /// The fitted rows with the form.
     with: Evaluation<'b>,
     /// Student's quantile of a 95 % interval.
     quantile: f64,
@@ -148,12 +145,10 @@ struct FormFit<'a, 'b> {
 
 impl<'a, 'b> FormFit<'a, 'b> {
     fn new(hypothesis: &Hypothesis<'b>, curve: &'a ColumnCurve, closed: &'a ClosedForm) -> Self {
-        let mut bare = hypothesis.clone();
-        bare.remove_curve(curve);
-        let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
+        let rows = without(hypothesis, curve);
         let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
         let (with, quantile) = (with_curve(hypothesis), quantile(hypothesis, closed));
-        Self { curve, closed, freed, rows, with, quantile }
+        Self { curve, closed, freed, with, quantile }
     }
 
     /// The form with its 95 % band over the range where it was seen and [`BEYOND_SEEN`] further on either side.
@@ -183,6 +178,13 @@ pub(super) fn places([low, high]: [f64; 2]) -> Vec<f64> {
     let share = |place: usize| place as f64 / (LINE_POINTS - 1) as f64;
     let at = (0..LINE_POINTS).map(|place| from + share(place) * (to - from));
     at.map(|at| if is_wide { at.exp() } else { at }).collect()
+}
+
+/// The fitted rows under the hypothesis without a curve.
+fn without<'b>(hypothesis: &Hypothesis<'b>, curve: &ColumnCurve) -> Evaluation<'b> {
+    let mut bare = hypothesis.clone();
+    bare.remove_curve(curve);
+    bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter()
 }
 
 /// The fitted rows under the hypothesis with its curves.
@@ -255,10 +257,10 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
     let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
     let value = twice_negative(&value).unwrap_or(value);
     let formula = match closed.acts {
-        CurveForm::Set => format!("{name} = {value}"),
-        CurveForm::Add => format!("{name} = base + ({value})"),
-        CurveForm::Factor => format!("{name} = base (1 + {value})"),
-        CurveForm::Times => format!("{name} = base ({value})"),
+        Operation::Set => format!("{name} = {value}"),
+        Operation::Add => format!("{name} = base + ({value})"),
+        Operation::Factor => format!("{name} = base (1 + {value})"),
+        Operation::Times => format!("{name} = base ({value})"),
     };
     if is_plain { formula } else { format!("{formula} with x = {column}") }
 }

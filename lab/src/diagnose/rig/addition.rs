@@ -11,7 +11,7 @@ use super::super::search::SearchAxis;
 use super::form::RigForm;
 use super::inputs::Over;
 use crate::rig::{CaseNumber, FARTHEST};
-use nearwall::effect::{CurveAxis, CurveForm, CurveTarget, FORMS, FittedCurve, Term};
+use nearwall::effect::{CurveAxis, CurveTarget, FORMS, FittedCurve, Operation, Term};
 use nearwall::model::Model;
 
 /// Largest value of a curve or a level: of `e_n` and `e_t` as a share, of capture in log odds.
@@ -173,7 +173,9 @@ impl RigAddition {
     pub fn variables(&self) -> Vec<String> {
         match &self.kind {
             Kind::Part(part) => part.inputs().iter().map(|&input| input.to_owned()).collect(),
-            Kind::Curve { .. } | Kind::Form(_) => self.over().map(|over| over.name.clone()).into_iter().collect(),
+            Kind::Curve { .. } | Kind::Form(_) => {
+                self.over().map(|over| over.name.clone()).into_iter().collect()
+            }
             Kind::Case { .. } => Vec::new(),
         }
     }
@@ -222,7 +224,7 @@ impl RigAddition {
     /// The curve with its present heights.
     pub fn fitted_curve(&self) -> Option<FittedCurve> {
         let Kind::Curve { on, over } = &self.kind else { return None };
-        let form = if *on == CurveTarget::Capture { CurveForm::Add } else { CurveForm::Factor };
+        let form = if *on == CurveTarget::Capture { Operation::Add } else { Operation::Factor };
         let axis = |over: &Over| {
             let [low, high] = over.seen;
             CurveAxis { input: over.input, knots: vec![low, over.middle, high] }
@@ -243,9 +245,10 @@ impl RigAddition {
                 let [low, high] = [low.min(high), low.max(high)];
                 vec![("value", Estimate { value, low, high, unit: number.unit })]
             }
-            Kind::Form(ref form) => {
-                self.closed_form().map(|closed| closed.estimates(form.over.unit).collect()).unwrap_or_default()
-            }
+            Kind::Form(ref form) => self
+                .closed_form()
+                .map(|closed| closed.estimates(form.over.unit).collect())
+                .unwrap_or_default(),
             _ => Vec::new(),
         }
     }
@@ -268,9 +271,8 @@ impl RigAddition {
                 }
             }
             Kind::Form(RigForm { on, over, .. }) => {
-                let table = |closed| {
-                    form_effect(on.name(), (&over.name, over.unit), &closed, over.valid(valid))
-                };
+                let table =
+                    |closed| form_effect(on.name(), (&over.name, over.unit), &closed, over.valid(valid));
                 added.extend(self.closed_form().map(table));
             }
             Kind::Case { .. } => {}

@@ -36,9 +36,8 @@ pub(super) fn candidates(forward: &dyn Forward, inputs: &RigInputs, data: &Data)
         Some([low - if low > beyond { beyond } else { 0.0 }, high + beyond])
     };
     // A layer or a film that is the same in all experiments acts nevertheless.
-    let wider = |input: &str| {
-        wider(input).or_else(|| inputs.present(input).map(|value| [0.5 * value, 2.0 * value]))
-    };
+    let wider =
+        |input: &str| wider(input).or_else(|| inputs.present(input).map(|value| [0.5 * value, 2.0 * value]));
     let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
     let numbers =
         forward.case_numbers().iter().cloned().enumerate().filter(|(place, _)| acts(forward, *place));

@@ -4,7 +4,7 @@
 //! the parameter in which it is not linear. Captures have a threshold with a width, which replaces the base model's
 //! probability. Forms with more parameters would need more than the readings of a rig hold.
 
-use nearwall::effect::{CurveForm, CurveTarget, FORMS, FittedForm, FormInfo};
+use nearwall::effect::{CurveTarget, FORMS, FittedForm, FormInfo, Operation};
 
 use super::super::closed_form::{BEYOND, ClosedForm, EXPONENTS, STEEPNESS};
 use super::super::observable::Observable;
@@ -100,9 +100,8 @@ impl RigForm {
     pub fn places(&self) -> Vec<Vec<f64>> {
         let [places, widths] = THRESHOLDS;
         let middle = |place: usize, count: usize| (place as f64 + 0.5) / count as f64;
-        let of = |place: usize| {
-            (0..widths).map(move |width| vec![middle(place, places), middle(width, widths)])
-        };
+        let of =
+            |place: usize| (0..widths).map(move |width| vec![middle(place, places), middle(width, widths)]);
         (0..places).flat_map(of).collect()
     }
 
@@ -122,8 +121,8 @@ impl RigForm {
         }
     }
 
-    fn acts(&self) -> CurveForm {
-        if self.on == CurveTarget::Capture { CurveForm::Set } else { CurveForm::Times }
+    fn acts(&self) -> Operation {
+        if self.on == CurveTarget::Capture { Operation::Set } else { Operation::Times }
     }
 
     /// As an effect with these parameters.
@@ -135,7 +134,7 @@ impl RigForm {
     /// As the diagnosis of impacts has it.
     pub fn closed(&self, parameters: Vec<f64>, intervals: Vec<[f64; 2]>) -> ClosedForm {
         let free = self.info.parameters.iter().map(|parameter| parameter.default.is_none()).collect();
-        ClosedForm { info: self.info, acts: self.acts(), parameters, free, intervals }
+        ClosedForm { info: self.info, acts: self.acts(), parameters, free, intervals, line: Vec::new() }
     }
 
     pub fn observable(&self) -> Observable {

@@ -106,7 +106,15 @@ impl Spread {
         };
         let middle = if inside { middle } else { 0.5 * (low + high) };
         let overlapping = Vec::new();
-        Over { input: self.input, name: self.name.clone(), unit, seen: [low, high], middle, also, overlapping }
+        Over {
+            input: self.input,
+            name: self.name.clone(),
+            unit,
+            seen: [low, high],
+            middle,
+            also,
+            overlapping,
+        }
     }
 }
 
@@ -144,7 +152,8 @@ impl RigInputs {
 
     /// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a layer.
     pub fn present(&self, input: &str) -> Option<f64> {
-        let absent = INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;
+        let absent =
+            INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;
         let value = self.input(input)?.least?;
         (absent == 0.0 && value > 0.0).then_some(value)
     }

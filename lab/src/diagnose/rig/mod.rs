@@ -145,7 +145,8 @@ fn set_intervals(named: &mut [Named], posterior: &Posterior) {
             let [low, high] = drawn.unwrap_or([now; 2]);
             [low.min(now), high.max(now)]
         };
-        let value = |place: usize| move |one: &RigAddition| one.values().get(place).copied().unwrap_or(f64::NAN);
+        let value =
+            |place: usize| move |one: &RigAddition| one.values().get(place).copied().unwrap_or(f64::NAN);
         let intervals = (0..addition.values().len()).map(|place| of(&value(place))).collect();
         let places = addition.as_form().map(|form| places(form.over.seen)).unwrap_or_default();
         let value_at = |at: f64| move |one: &RigAddition| one.value_of_form(at).unwrap_or(f64::NAN);

@@ -3,13 +3,15 @@
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::super::closed_form::ClosedForm;
 use super::super::constants::REFUTED;
 use super::super::finding::{equation, group_words, sigma};
 use super::super::form_finding;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, LargeMisfit, NotExamined, Options, Rows,
+    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, LargeMisfit,
+    NotExamined, Options, Rows,
 };
 use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words};
 use super::super::verdict::not_examined;
@@ -391,11 +393,11 @@ fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
 
 /// What is said of a closed form.
 fn form(addition: &RigAddition, line: &[FormPoint]) -> Option<CauseForm> {
-    let RigForm { over, tried, .. } = addition.as_form()?;
-    let observable = addition.as_form()?.observable();
-    let column = (over.name.as_str(), over.unit);
-    let seen = (Some(over.seen), line.to_vec());
-    Some(form_finding::record(&addition.closed_form()?, observable, column, seen, tried))
+    let form = addition.as_form()?;
+    let RigForm { over, tried, .. } = form;
+    let closed = ClosedForm { line: line.to_vec(), ..addition.closed_form()? };
+    let column = (over.name.as_str(), over.unit, Some(over.seen));
+    Some(form_finding::record(&closed, form.observable(), column, tried))
 }
 
 /// Which inputs and groups cannot be told from that of a curve, as a sentence.
@@ -416,7 +418,9 @@ fn explain(finding: &Finding) -> String {
         (None, Some(("unknown", input))) => {
             let what = group_words(input).map_or_else(|| input.to_owned(), |group| format!("the {group}"));
             let forms: String = finding.forms.iter().map(equation).collect();
-            format!("What the rig shows depends on {what} in a way that no effect of the library explains.{forms}")
+            format!(
+                "What the rig shows depends on {what} in a way that no effect of the library explains.{forms}"
+            )
         }
         (None, Some(("level", what))) => format!(
             "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a constant."
