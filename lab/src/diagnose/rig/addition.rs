@@ -75,19 +75,17 @@ impl RigAddition {
         Self { axes: form.axes(), at, kind: Kind::Form(form), intervals: Vec::new() }
     }
 
-    /// The closed forms that come near a curve of `e_n` or `e_t`; none of anything else.
+    /// The closed forms that come near a curve or form of `e_n` or `e_t`; none of anything else.
     pub fn closed_forms(&self) -> Vec<Self> {
-        let (Kind::Curve { on, over: Some(over) }, Some(curve)) = (&self.kind, self.fitted_curve()) else {
-            return Vec::new();
+        let (on, over, factors) = match (&self.kind, self.fitted_curve()) {
+            (Kind::Curve { on, over: Some(over) }, Some(curve)) => (*on, over, factors_of(&curve)),
+            (Kind::Form(form), _) => (form.on, &form.over, form.factors(&self.values())),
+            _ => return Vec::new(),
         };
-        if *on == CurveTarget::Capture {
+        if on == CurveTarget::Capture {
             return Vec::new();
         }
-        let knots = curve.axes.iter().flat_map(|axis| &axis.knots).zip(&curve.values);
-        let mut factors: Vec<[f64; 2]> = knots.map(|(x, value)| [*x, 1.0 + value]).collect();
-        let between = |pair: &[[f64; 2]]| [0, 1].map(|i| 0.5 * (pair[0][i] + pair[1][i]));
-        factors.extend(factors.windows(2).map(between).collect::<Vec<_>>());
-        RigForm::near(*on, over, &factors).into_iter().map(|(form, at)| Self::form(form, at)).collect()
+        RigForm::near(on, over, &factors).into_iter().map(|(form, at)| Self::form(form, at)).collect()
     }
 
     /// A number of the case that is grossly wrong.
@@ -278,6 +276,15 @@ impl RigAddition {
             Kind::Case { .. } => {}
         }
     }
+}
+
+/// The factors of a curve at its knots and between them.
+fn factors_of(curve: &FittedCurve) -> Vec<[f64; 2]> {
+    let knots = curve.axes.iter().flat_map(|axis| &axis.knots).zip(&curve.values);
+    let mut factors: Vec<[f64; 2]> = knots.map(|(x, value)| [*x, 1.0 + value]).collect();
+    let between = |pair: &[[f64; 2]]| [0, 1].map(|i| 0.5 * (pair[0][i] + pair[1][i]));
+    factors.extend(factors.windows(2).map(between).collect::<Vec<_>>());
+    factors
 }
 
 fn with_term(model: &Model, term: Term) -> Model {

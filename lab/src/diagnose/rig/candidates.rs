@@ -1,5 +1,5 @@
 //! What could be added beside the causes found so far: every effect whose inputs vary, the numbers
-//! of the base model's own laws, levels, curves, and thresholds of capture.
+//! of the base model's own laws, levels, curves, thresholds of capture, and powers.
 
 use super::super::part::{LawParameter, Part};
 use super::addition::RigAddition;
@@ -54,10 +54,11 @@ pub(super) fn candidates(forward: &dyn Forward, inputs: &RigInputs, data: &Data)
             all.push(RigAddition::curve(on, None));
         }
         all.extend(curves.iter().map(|over| RigAddition::curve(on, Some(over.clone()))));
-        if on == CurveTarget::Capture {
-            let thresholds = curves.iter().flat_map(RigForm::thresholds);
-            all.extend(thresholds.map(|form| RigAddition::form(form, vec![0.5; 2])));
-        }
+        let forms = |over| match on {
+            CurveTarget::Capture => RigForm::thresholds(over),
+            _ => RigForm::power(on, over).into_iter().collect(),
+        };
+        all.extend(curves.iter().flat_map(forms).map(|form| RigAddition::form(form, vec![0.5; 2])));
     }
     all
 }

@@ -18,6 +18,13 @@ const ROUNDS: u64 = 100;
 const SIMPLEX: f64 = 0.04;
 /// Places of the threshold and of its steepness at which captures are predicted.
 const THRESHOLDS: [usize; 2] = [12, 3];
+/// Factors in the middle of the range, and exponents, at which a power is predicted.
+const FACTORS: [f64; 6] = [0.4, 0.6, 0.8, 0.92, 1.0, 1.1];
+const POWERS: [f64; 8] = [-1.2, -0.4, -0.15, -0.05, 0.05, 0.15, 0.4, 1.2];
+/// A range whose ends differ by more than this factor is wide: three knots do not show a power over it [1].
+const WIDE: f64 = 10.0;
+/// Places at which a form is compared with others.
+const SHOWN: usize = 5;
 /// Least place of a threshold or a scale, where the range begins at 0, as a share of its end [1].
 const LEAST_SCALE: f64 = 0.02;
 
@@ -46,6 +53,13 @@ impl RigForm {
         }
         let one = |falls| Self::new(CurveTarget::Capture, over, "logistic", falls);
         [false, true].into_iter().filter_map(one).collect()
+    }
+
+    /// The power of `e_n` or `e_t` over an input or group with a wide range.
+    pub fn power(on: CurveTarget, over: &Over) -> Option<Self> {
+        let [low, high] = over.seen;
+        let is_wide = low > 0.0 && high > WIDE * low;
+        is_wide.then(|| Self::new(on, over, "power", false)).flatten()
     }
 
     /// The forms of `e_n` or `e_t` that come near factors on it at some places, with their coordinates.
@@ -96,8 +110,12 @@ impl RigForm {
         }
     }
 
-    /// Places of these axes at which a threshold is looked at first.
+    /// Places of these axes at which it is looked at first.
     pub fn places(&self) -> Vec<Vec<f64>> {
+        if let ("power", [factor, power]) = (self.info.name, &self.axes()[..]) {
+            let with = |value: f64| POWERS.map(|one| vec![factor.coordinate(value), power.coordinate(one)]);
+            return FACTORS.into_iter().flat_map(with).collect();
+        }
         let [places, widths] = THRESHOLDS;
         let middle = |place: usize, count: usize| (place as f64 + 0.5) / count as f64;
         let of =
@@ -119,6 +137,16 @@ impl RigForm {
             "saturating" => vec![first * (high + second) / high, second, 0.0],
             _ => vec![first, if self.falls { -second } else { second }, 0.0, 1.0],
         }
+    }
+
+    /// Its values at some places of the range, as factors.
+    pub fn factors(&self, parameters: &[f64]) -> Vec<[f64; 2]> {
+        let [low, high] = self.over.seen;
+        let share = |place: usize| place as f64 / (SHOWN - 1) as f64;
+        let at = |place: usize| {
+            if low > 0.0 { low * (high / low).powf(share(place)) } else { low + share(place) * (high - low) }
+        };
+        (0..SHOWN).map(at).map(|x| [x, self.info.value(parameters, x)]).collect()
     }
 
     fn acts(&self) -> Operation {

@@ -127,23 +127,23 @@ impl<'a> RigSearch<'a> {
         fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new)
     }
 
-    /// The same with the closed form in the place of the last curve that has more evidence than the curve, if any.
-    fn closed_or_free(&self, free: RigExplanation) -> RigExplanation {
-        let curves = free.fitted.additions.iter().rposition(|one| !one.closed_forms().is_empty());
-        let Some(place) = curves else { return free };
+    /// The same with the closed form in the place of the last curve or form that has the most evidence, if it has more.
+    fn best_form(&self, one: RigExplanation) -> RigExplanation {
+        let additions = &one.fitted.additions;
+        let open =
+            additions.iter().map(RigAddition::closed_forms).enumerate().rfind(|(_, all)| !all.is_empty());
+        let Some((place, forms)) = open else { return one };
         let with = |form: RigAddition| {
-            let mut additions = free.fitted.additions.clone();
+            let mut additions = additions.clone();
             additions[place] = form;
             self.explanation(self.study.fit(&additions, self.weights))
         };
-        let forms = free.fitted.additions[place].closed_forms();
         let fitted: Vec<RigExplanation> = forms.into_iter().filter_map(with).collect();
         let name = |one: &RigExplanation| one.fitted.additions[place].as_form().map_or("", RigForm::name);
         let tried = fitted.iter().map(|one| (name(one), self.evidence.of(one))).collect::<Vec<_>>();
-        let best = fitted.into_iter().max_by(|a, b| self.evidence.of(a).total_cmp(&self.evidence.of(b)));
-        let Some(mut best) = best.filter(|best| self.evidence.of(best) > self.evidence.of(&free)) else {
-            return free;
-        };
+        let all = fitted.into_iter().chain([one.clone()]);
+        let best = all.max_by(|a, b| self.evidence.of(a).total_cmp(&self.evidence.of(b)));
+        let mut best = best.unwrap_or(one);
         if let Kind::Form(form) = &mut best.fitted.additions[place].kind {
             form.tried = tried;
         }
@@ -191,8 +191,8 @@ impl Explained for RigSearch<'_> {
         let fitted: Vec<RigExplanation> = all.into_iter().map(|new| self.refitted(new)).collect();
         let best = fitted.iter().map(|one| self.evidence.of(one)).fold(f64::NEG_INFINITY, f64::max);
         let is_open = |one: &RigExplanation| self.evidence.of(one) > best - WINDOW;
-        let closed = |one: RigExplanation| if is_open(&one) { self.closed_or_free(one) } else { one };
-        let mut found: Vec<_> = fitted.into_iter().map(closed).chain(rest).collect();
+        let formed = |one: RigExplanation| if is_open(&one) { self.best_form(one) } else { one };
+        let mut found: Vec<_> = fitted.into_iter().map(formed).chain(rest).collect();
         found.retain(|new| !new.fitted.additions.iter().any(RigAddition::at_bound));
         found
     }
