@@ -14,12 +14,7 @@ pub(super) fn figure(diagnosis: &Diagnosis, finding: &Finding, form: &CauseForm)
     let acts = CurveForm::ALL.into_iter().find(|acts| acts.name() == form.acts)?;
     let is_capture = form.observable == "outcome";
     let quantity = title(form.observable);
-    let label = match acts {
-        _ if is_capture => "probability of capture [1]".to_owned(),
-        CurveForm::Set => format!("{quantity} [1]"),
-        CurveForm::Add => format!("added to {quantity} [1]"),
-        CurveForm::Factor | CurveForm::Times => format!("factor on {quantity} [1]"),
-    };
+    let label = axis_label(acts, is_capture, quantity);
     let points = points(diagnosis, form, acts, &axis);
     let means = Means::new(&points, false);
     let line: Vec<[f64; 2]> = form.line.iter().map(|point| [point.at, point.value]).collect();
@@ -48,6 +43,15 @@ pub(super) fn figure(diagnosis: &Diagnosis, finding: &Finding, form: &CauseForm)
         points.len()
     );
     Some(chart.figure(&format!("form-{}-{}", identifier(axis.name), identifier(quantity)), &caption))
+}
+
+fn axis_label(acts: CurveForm, is_capture: bool, quantity: &str) -> String {
+    match acts {
+        _ if is_capture => "probability of capture [1]".to_owned(),
+        CurveForm::Set => format!("{quantity} [1]"),
+        CurveForm::Add => format!("added to {quantity} [1]"),
+        CurveForm::Factor | CurveForm::Times => format!("factor on {quantity} [1]"),
+    }
 }
 
 /// What each row says of the form's value: the measured number without the rest of the model.

@@ -3,6 +3,7 @@
 use super::{RunComparison, RunResults, WallModel, number, percent};
 use crate::results::{ByConversion, share};
 use nearwall::impact::Regime;
+use std::iter;
 
 /// Conversion below which carbon still covers the ash of captured char (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
@@ -30,37 +31,10 @@ pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
 
 /// At most four sentences, however many runs there are.
 pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
-    let own = || comparison.each().filter(|(_, run)| run.is_ours());
-    let mut lines = Vec::new();
-    if let [run] = comparison.runs {
-        lines.push(single(comparison, run));
-        lines.extend(busiest(comparison, run));
-    } else {
-        let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
-        let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
-        lines.push(format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", ")));
-        let regimes: Vec<String> = own()
-            .filter_map(|(label, run)| {
-                let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
-                Some(format!(
-                    "{} of the captured mass of {label} is caught as {}",
-                    percent(share),
-                    regime.name()
-                ))
-            })
-            .collect();
-        // A stock model is compared with the first run of the same cloud with our model.
-        let first = |label: &str, run: &RunResults| {
-            own().find(|(_, o)| o.cloud == run.cloud).is_some_and(|(l, _)| l == label)
-        };
-        let beside: Vec<String> = own()
-            .filter(|(label, run)| first(label, run))
-            .filter_map(|(label, run)| beside_stock(comparison, label, run))
-            .collect();
-        lines.extend(
-            [regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."),
-        );
-    }
+    let mut lines = match comparison.runs {
+        [run] => iter::once(single(comparison, run)).chain(busiest(comparison, run)).collect(),
+        _ => several(comparison),
+    };
     let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
     let raw: Vec<String> = comparison
         .each()
@@ -72,6 +46,31 @@ pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
     if !raw.is_empty() {
         lines.push(format!("Captured mass with a conversion below {RAW} at capture: {}.", raw.join(", ")));
     }
+    lines
+}
+
+/// What several runs capture, in which regimes, and what stock models say beside them.
+fn several(comparison: &RunComparison<'_>) -> Vec<String> {
+    let own = || comparison.each().filter(|(_, run)| run.is_ours());
+    let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
+    let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
+    let mut lines =
+        vec![format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", "))];
+    let regimes: Vec<String> = own()
+        .filter_map(|(label, run)| {
+            let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
+            Some(format!("{} of the captured mass of {label} is caught as {}", percent(share), regime.name()))
+        })
+        .collect();
+    // A stock model is compared with the first run of the same cloud with our model.
+    let first = |label: &str, run: &RunResults| {
+        own().find(|(_, o)| o.cloud == run.cloud).is_some_and(|(l, _)| l == label)
+    };
+    let beside: Vec<String> = own()
+        .filter(|(label, run)| first(label, run))
+        .filter_map(|(label, run)| beside_stock(comparison, label, run))
+        .collect();
+    lines.extend([regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."));
     lines
 }
 
