@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{ColumnCells, ColumnValues};
+use super::column::{ColumnCells, ColumnValues, DataColumn};
 use super::column_map::ColumnMap;
 use super::column_names::{CAPTURES, DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
