@@ -4,6 +4,9 @@ use askama::Template;
 
 use super::chart::Figure;
 
+/// Fewest headings with a list of contents.
+const LISTED_HEADINGS: usize = 3;
+
 /// One section of a page. All text is plain; the template escapes it.
 #[derive(Debug, Clone, PartialEq)]
 enum PagePart {
@@ -107,6 +110,23 @@ impl Page {
     pub fn new(title: &str) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         Self { title: title.to_owned(), sections: Vec::new(), foot: String::new(), version }
+    }
+
+    /// What the page can do in a browser.
+    const SCRIPT: &str = include_str!("page.js");
+
+    /// The headings with the places of their sections.
+    fn headings(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.sections.iter().enumerate().filter_map(|(place, part)| match part {
+            PagePart::Heading(text) => Some((place, text.as_str())),
+            _ => None,
+        })
+    }
+
+    /// Whether the list of contents stands before this section: the first heading of several.
+    fn begins_contents(&self, place: &usize) -> bool {
+        self.headings().count() >= LISTED_HEADINGS
+            && self.headings().next().is_some_and(|(first, _)| first == *place)
     }
 
     /// Adds a heading.
