@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::diagnose::benchmark::{Benchmark, BenchmarkEntry, EntryKind};
+use crate::report::benchmark_text;
+use crate::rig::DrawnModels;
 use nearwall::Model;
 use nearwall::input::{Document, unknown};
-use nearwall_lab::diagnose::benchmark::{Benchmark, BenchmarkEntry, EntryKind};
-use nearwall_lab::report::benchmark_text;
-use nearwall_lab::rig::DrawnModels;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// The law whose failures are shown where none is asked for.
 const DEFAULT_LAW: &str = "thornton-ning";
@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let file = file.map(|path| Document::from_file(path.as_ref())).transpose()?;
     let mut benchmark = Benchmark::new(arguments.data.as_deref())?;
     if arguments.impacts {
-        return crate::print(&benchmark.impacts()?);
+        return super::print(&benchmark.impacts()?);
     }
     if let Some(file) = &file {
         benchmark.add_model(file.name(), file.text(), &drawn_texts(file, arguments.draws.as_deref())?)?;
@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     };
     let chosen = result.entries.iter().filter(is_chosen);
     let chosen: Vec<_> = chosen.map(|entry| (entry, benchmark.shortfalls(entry))).collect();
-    crate::print(&benchmark_text(&result, &chosen, own || law.is_some()))
+    super::print(&benchmark_text(&result, &chosen, own || law.is_some()))
 }
 
 /// The texts of the models that were drawn from the fit of a model, which is checked; none without a folder.

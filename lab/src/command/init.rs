@@ -2,9 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::write_texts;
+use crate::atomic_file::write_texts;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// Writes a commented case of your field that runs, and prints the next command
 #[derive(clap::Args)]
@@ -46,7 +46,7 @@ struct StartingCase {
 
 macro_rules! tutorial {
     ($path:literal) => {
-        include_str!(concat!("../../../../tutorials/", $path))
+        include_str!(concat!("../../../tutorials/", $path))
     };
 }
 
@@ -125,5 +125,5 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     write_texts(folder, &[], case.files.iter().map(|(name, content)| (*name, text(content))))?;
     let written: String = paths().map(|path| format!("{}\n", path.display())).collect();
     let next = case.next.replace("DIR", &folder.display().to_string());
-    crate::print(&format!("{written}next: {next}\n"))
+    super::print(&format!("{written}next: {next}\n"))
 }

@@ -3,14 +3,14 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::write_texts;
+use crate::dataset::{ColumnMap, WallChoice};
+use crate::diagnose::comparison::{ComparedModel, Comparison, compare};
+use crate::report::{comparison_page, comparison_text};
 use nearwall::Model;
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::write_texts;
-use nearwall_lab::dataset::{ColumnMap, WallChoice};
-use nearwall_lab::diagnose::comparison::{ComparedModel, Comparison, compare};
-use nearwall_lab::report::{comparison_page, comparison_text};
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Ranks models on measured impacts by held-out error with intervals
 #[derive(clap::Args)]
@@ -51,13 +51,13 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let candidates: Vec<ComparedModel<'_>> =
         files.iter().zip(&models).map(candidate).collect::<Result<_, Box<dyn std::error::Error>>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
-    crate::note(&notes);
+    super::note(&notes);
     let file = arguments.data.display().to_string();
     let comparison = compare(&candidates, arguments.seed).map_err(|error| format!("{file}: {error}"))?;
     let text = comparison_text(&comparison);
-    let Some(folder) = &arguments.out else { return crate::print(&text) };
+    let Some(folder) = &arguments.out else { return super::print(&text) };
     write(arguments, folder, &comparison, &notes)?;
-    crate::print_page(&(text + "\n"), &folder.join("compare.html"))
+    super::print_page(&(text + "\n"), &folder.join("compare.html"))
 }
 
 /// The data as the walls of a model read them.
@@ -75,7 +75,7 @@ fn read<'a>(
     let source = bar.wrap_read(source);
     let read = ComparedModel::read(name.to_owned(), model, &file, source, map, &walls);
     Ok(read.map_err(|error| match error {
-        nearwall_lab::dataset::DatasetError::Wall(error) => of_model(error),
+        crate::dataset::DatasetError::Wall(error) => of_model(error),
         other => other.to_string(),
     })?)
 }
