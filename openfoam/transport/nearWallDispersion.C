@@ -41,13 +41,8 @@ Foam::nearWall::walkRecord Foam::nearWallDispersion<CloudType>::recordOf
 {
     if (nearWall::walkRecord::isIn(tTurb)) return nearWall::walkRecord::read(tTurb);
 
-    const fvMesh& mesh = this->owner().mesh();
-    if (timeIndex_ != mesh.time().timeIndex())
-    {
-        timeIndex_ = mesh.time().timeIndex();
-        begun_.clear();
-    }
-    std::uint64_t key = nearWall::keyOf(mesh, place, p.U(), p.d());
+    std::uint64_t key =
+        nearWall::keyOf(this->owner().mesh(), place, p.U(), p.d());
     while (!begun_.insert(key).second)
     {
         key = nearWall::impactKey::mix(key + 1);
@@ -85,6 +80,7 @@ void Foam::nearWallDispersion<CloudType>::cacheFields(const bool store)
         warnOfLongSteps();
         return;
     }
+    begun_.clear();
     if (!gas_) gas_ = std::make_shared<nearWall::gasTurbulence>(owner.mesh());
     gas_->read
     (
