@@ -128,6 +128,12 @@ bool takesMass(const nearwall::process& process)
     return !process.loss.empty();
 }
 
+
+bool bringsMass(const nearwall::process& process)
+{
+    return !process.gain.empty();
+}
+
 } // End anonymous namespace
 
 
@@ -628,6 +634,7 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     );
     const scalarField& wallTemperature = fields_.on(depositFields::temperature, patchi);
     const patchSurroundings surroundings(*this, patchi);
+    const bool gainsMass = acts(*model_, rules_[patchi].wall, bringsMass);
 
     scalar arrived = 0;
     nw_deposit_losses lost(nearwall::make_deposit_losses());
@@ -645,7 +652,7 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
         const scalar slag = d.molten + d.frozen;
         if
         (
-            slag > 0
+            slag > 0 || gainsMass
          || (d.powder > 0 && (cooling || surroundings.losesMass()))
         )
         {

@@ -51,7 +51,7 @@ void refuseOtherKeys(const dictionary& dict, const string& owner)
         wordList
         ({
             "Ta", "h", "thicknessLayers", "kappaLayers", "emissivity",
-            "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation",
+            "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation", "vapour",
             "type", "value", "mode", "kappaMethod", "refValue", "refGradient",
             "refGrad", "valueFraction", "radiating", "patchType", "useImplicit",
             "source", "libs"
@@ -83,6 +83,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
     qr(readOr<word>(dict, "qr", word("none"))),
     alphat(readOr<word>(dict, "alphat", word("alphat"))),
     cloud(readOr<word>(dict, "cloud", word())),
+    vapour(readOr<word>(dict, "vapour", word("none"))),
     relaxation
     (
         readChecked<scalar>
@@ -161,6 +162,7 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::write
     }
     writeKey(os, "qr", qr);
     writeKey(os, "alphat", alphat);
+    if (vapour != "none") writeKey(os, "vapour", vapour);
     if (!cloud.empty()) writeKey(os, "cloud", cloud);
     writeKey(os, "relaxation", relaxation);
 }
@@ -316,6 +318,11 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
         c.emissivity = given_.emissivity;
         c.irradiation = sigma*pow4(given_.surroundingsTemperature);
     }
+    if (given_.vapour != "none")
+    {
+        const scalarField vapour(vapourBeside());
+        forAll(found, i) found[i].vapour_fraction = max(vapour[i], scalar(0));
+    }
     if (given_.qr != "none")
     {
         const scalarField& qr = radiated();
@@ -396,6 +403,23 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::radiated() const
     return
         db().lookupObject<volScalarField>(given_.qr)
        .boundaryField()[patch().index()];
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::vapourBeside() const
+{
+    if (!db().foundObject<volScalarField>(given_.vapour))
+    {
+        FatalErrorInFunction
+            << "Patch '" << patch().name() << "' of " << internalField().name()
+            << ", key 'vapour': there is no field '" << given_.vapour << "'." << nl
+            << "    Give the name of the mass fraction of a species, or remove"
+            << " the key: then it is that of the wall model." << exit(FatalError);
+    }
+    return
+        db().lookupObject<volScalarField>(given_.vapour)
+       .boundaryField()[patch().index()].patchInternalField();
 }
 
 

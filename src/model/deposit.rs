@@ -252,7 +252,7 @@ impl Model {
         at_least_zero("duration", duration)?;
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
         let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
-            (Some(cooling), _) if deposit.mass() > 0.0 => {
+            (Some(cooling), _) if deposit.mass() > 0.0 || of.processes.bring_mass() => {
                 let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
                 let front = thermal.after_flow(&deposit.layers(), &flow, duration)?;
                 DepositHeat::Cooled { flow, front }

@@ -282,6 +282,7 @@ fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
             temperature: cooling.void_temperature,
             exponent: 0.8,
         },
+        vapour: None,
     }
 }
 
@@ -937,10 +938,13 @@ fn processes_have_names_and_walls() {
     for (index, process) in (0..).zip(PROCESSES) {
         assert_eq!(text(unsafe { (calls.nw_process_name)(index) }), process.name);
         assert_eq!(text(unsafe { (calls.nw_process_loss)(index) }), process.loss.unwrap_or(""));
+        assert_eq!(text(unsafe { (calls.nw_process_gain)(index) }), process.gain.unwrap_or(""));
     }
     let beyond = NW_PROCESSES as u32;
     assert!(unsafe {
-        (calls.nw_process_name)(beyond).is_null() && (calls.nw_process_loss)(beyond).is_null()
+        (calls.nw_process_name)(beyond).is_null()
+            && (calls.nw_process_loss)(beyond).is_null()
+            && (calls.nw_process_gain)(beyond).is_null()
     });
     let acting = |model, wall| {
         let mut bits = 77;
@@ -948,10 +952,50 @@ fn processes_have_names_and_walls() {
         (status, bits)
     };
     // Melting and sintering everywhere.
-    assert_eq!([0, 1, 2].map(|wall| acting(model, wall)), [0b0011, 0b1111, 0b0111].map(|bits| (NW_OK, bits)));
+    assert_eq!(
+        [0, 1, 2].map(|wall| acting(model, wall)),
+        [0b0_0011, 0b1_1011, 0b0_1011].map(|bits| (NW_OK, bits))
+    );
     assert_eq!(acting(model, 77), (NW_UNKNOWN_WALL, 77));
     assert_eq!(acting(null(), 0), (NW_NULL_POINTER, 77));
     assert_eq!(unsafe { (calls.nw_wall_processes)(model, 0, null_mut()) }, NW_NULL_POINTER);
+    calls.free(model);
+}
+
+/// Vapour condenses on a bare cooled wall with the fraction of the model file or of the call, and warms it.
+#[test]
+fn vapour_condenses_on_a_cooled_wall() {
+    let calls = Calls::load();
+    let vapour = "[walls.slag.condensation]\nvapour = \"KCl\"\nmass_fraction = 2e-4\n";
+    let model = calls.parse(&format!("{EVERY_REGIME}\n{vapour}"));
+    let gained = |vapour_fraction: f64| {
+        let mut deposit = nw_deposit { wall: 1, ..nw_deposit::default() };
+        let around = nw_deposit_surroundings { voidage: 0.4, ..nw_deposit_surroundings::default() };
+        let cooling = nw_wall_cooling { gas_temperature: 1100.0, vapour_fraction, ..by_hand() };
+        let mut lost = nw_deposit_losses::default();
+        let found = heat(&calls, model, &deposit, 0.4, &cooling).unwrap();
+        let status = unsafe {
+            (calls.nw_deposit_advance)(
+                model,
+                &raw const around,
+                &raw const cooling,
+                3600.0,
+                &raw mut deposit,
+                &raw mut lost,
+            )
+        };
+        assert_eq!(status, NW_OK);
+        assert_eq!(lost.mass, [0.0, 0.0, -deposit.powder, 0.0, 0.0]);
+        (deposit.powder, found.heat_flux)
+    };
+    let [(none, dry), (half, less), (all, more), (given, same)] = [0.0, 1e-4, 2e-4, -1.0].map(gained);
+    assert_eq!((none, given, same), (0.0, all, more));
+    assert!(
+        (0.49..0.51).contains(&(half / all)) && dry < less && less < more,
+        "{half} {all} {dry} {less} {more}"
+    );
+    let bad = nw_wall_cooling { vapour_fraction: 0.6, ..by_hand() };
+    assert_eq!(heat(&calls, model, &nw_deposit::default(), 0.4, &bad).unwrap_err(), NW_BAD_STATE);
     calls.free(model);
 }
 

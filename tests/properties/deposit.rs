@@ -56,6 +56,7 @@ fn cooling() -> impl Strategy<Value = WallCooling> {
                     particle_flux: 0.0,
                 },
                 void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
+                vapour: None,
             }
         },
     )
@@ -160,6 +161,7 @@ proptest! {
                     particle_flux: 0.0,
                 },
                 void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
+                vapour: None,
             };
             let around = Surroundings { voidage, cooling: Some(same), ..Surroundings::default() };
             for _ in 0..3 {
