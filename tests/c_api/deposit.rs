@@ -380,14 +380,15 @@ fn advance_cooled(
     cooling: *const nw_wall_cooling,
     duration: f64,
 ) -> Result<(nw_deposit, Losses), i32> {
-    let (mut after, mut losses) = (*deposit, nw_deposit_losses { mass: [-1.0; 4], ..Default::default() });
+    let (mut after, mut losses) =
+        (*deposit, nw_deposit_losses { mass: [-1.0; NW_PROCESSES], ..Default::default() });
     let (to, lost) = (&raw mut after, &raw mut losses);
     let status = unsafe { (calls.nw_deposit_advance)(model, around, cooling, duration, to, lost) };
     if status == NW_OK {
         return Ok((after, losses.mass));
     }
     assert_eq!(format!("{after:?}"), format!("{deposit:?}"), "written on failure");
-    assert_eq!(losses.mass, [-1.0; 4], "written on failure");
+    assert_eq!(losses.mass, [-1.0; NW_PROCESSES], "written on failure");
     Err(status)
 }
 
@@ -447,7 +448,7 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         let surroundings = surroundings_in_rust(&around, Some(&cooling));
         let expected = rust.advance(wall, &deposit_in_rust(&deposit), &surroundings, duration);
         assert_eq!((deposit_in_rust(&aged), aged.wall), (expected.unwrap().0, deposit.wall));
-        assert_eq!(losses, [0.0; 4]);
+        assert_eq!(losses, [0.0; NW_PROCESSES]);
         near(deposit_in_rust(&aged).mass(), deposit_in_rust(&deposit).mass());
         melted += usize::from(aged.molten > deposit.molten);
         frozen += usize::from(aged.frozen > deposit.frozen);
@@ -588,7 +589,7 @@ fn a_deposit_falls_off() {
         let (after, losses) = advance(&calls, model, &deposit, &around, 60.0).unwrap();
         let after = format!("{after:?}");
         let is_held = after == format!("{deposit:?}");
-        assert_eq!(losses, [0.0, 0.0, 0.0, if is_held { 0.0 } else { deposit.molten + deposit.powder }]);
+        assert_eq!(losses, [0.0, 0.0, 0.0, 0.0, if is_held { 0.0 } else { deposit.molten + deposit.powder }]);
         assert!(is_held || after == format!("{:?}", nw_deposit { wall, ..nw_deposit::default() }), "{after}");
         is_held
     };
@@ -664,7 +665,7 @@ fn the_gas_carries_away_as_in_the_rust_library() {
                 rust.advance(wall as usize, &before, &surroundings_in_rust(&around, None), duration);
             let (after, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
             assert_eq!((deposit_in_rust(&after), losses), expected.unwrap());
-            assert_eq!(losses, [0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
+            assert_eq!(losses, [0.0, 0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
             assert_eq!((after.wall, after.molten), (wall, deposit.molten));
             if format!("{after:?}") == format!("{deposit:?}") {
                 kept += i32::from(wall > 0);
@@ -891,9 +892,9 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
         let mut initial = around;
         assert_eq!((calls.nw_deposit_surroundings_init)(&raw mut initial), NW_OK);
         assert_eq!(format!("{initial:?}"), format!("{:?}", nw_deposit_surroundings::default()));
-        losses.mass = [9.0; 4];
+        losses.mass = [9.0; NW_PROCESSES];
         assert_eq!((calls.nw_deposit_losses_init)(&raw mut losses), NW_OK);
-        assert_eq!(losses.mass, [0.0; 4]);
+        assert_eq!(losses.mass, [0.0; NW_PROCESSES]);
     }
     calls.free(model);
 }
@@ -913,7 +914,7 @@ fn without_wind_time_or_a_table_powder_stays() {
     };
     let (left, losses) = advance(&calls, model, &deposit, &wind, 60.0).unwrap();
     assert!(left.powder < deposit.powder && left.resuspended > 0.0, "{left:?}");
-    assert_eq!(losses, [0.0, 0.0, deposit.powder - left.powder, 0.0]);
+    assert_eq!(losses, [0.0, 0.0, 0.0, deposit.powder - left.powder, 0.0]);
     let calm = nw_deposit_surroundings { shear_down: 0.0, ..wind };
     let unknown = nw_deposit_surroundings { gas_density: 0.0, kinematic_viscosity: 0.0, ..calm };
     for (wall, around, duration) in
@@ -922,7 +923,7 @@ fn without_wind_time_or_a_table_powder_stays() {
         let deposit = nw_deposit { wall, ..deposit };
         let (unchanged, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
         assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
-        assert_eq!(losses, [0.0; 4]);
+        assert_eq!(losses, [0.0; NW_PROCESSES]);
     }
     calls.free(model);
 }
