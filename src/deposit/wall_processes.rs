@@ -54,11 +54,6 @@ impl WallProcesses {
         self.0.iter().flatten().map(|process| process.describe()).collect()
     }
 
-    /// Whether one of them brings mass, also to a bare wall.
-    pub(crate) fn bring_mass(&self) -> bool {
-        self.acting().any(|(_, info)| info.gain.is_some())
-    }
-
     /// Heat flux [W/m²] that they release at a surface of a temperature [K].
     pub(crate) fn heat_flux(&self, gas: &VapourSide, surface: f64) -> f64 {
         self.0.iter().flatten().map(|process| process.heat_flux(gas, surface)).sum()

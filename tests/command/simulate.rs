@@ -990,7 +990,14 @@ fn the_wax_rig_meets_the_paper() {
 
 #[test]
 fn every_example_runs() {
-    for name in ["duct.toml", "gasifier.toml", "superheater.toml", "tungstenDust.toml", "waxRig.toml"] {
+    for name in [
+        "duct.toml",
+        "gasifier.toml",
+        "saltLayer.toml",
+        "superheater.toml",
+        "tungstenDust.toml",
+        "waxRig.toml",
+    ] {
         let mut case = Case::from_file(&example(name)).unwrap_or_else(|error| panic!("{error}"));
         case.injections[0].count = 20;
         if let Some(sweep) = &mut case.sweep {
