@@ -222,7 +222,7 @@ impl RunTotals {
         let mut lines = self.ranges.lines("hits");
         if self.too_seldom > 0 {
             lines.push(format!(
-                "{} of {} particles have relaxation times of 0.3 to 3 in wall units: turbulence brings fewer than \
+                "{} of {} particles have relaxation times of 0.3 to 4 in wall units: turbulence brings fewer than \
                  half as many to walls as measured, down to hardly any at 1",
                 self.too_seldom, self.ends.injected.count
             ));
