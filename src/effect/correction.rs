@@ -40,7 +40,7 @@ impl CurveTarget {
 
 /// How a correction acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CurveForm {
+pub enum Operation {
     /// The value is added; on capture to the log odds.
     Add,
     /// One plus the value is a factor.
@@ -51,7 +51,7 @@ pub enum CurveForm {
     Set,
 }
 
-impl CurveForm {
+impl Operation {
     /// Those of curves.
     pub const OF_CURVES: [Self; 2] = [Self::Add, Self::Factor];
     /// All of them.
@@ -94,7 +94,7 @@ pub trait Correction {
     fn on(&self) -> CurveTarget;
 
     /// How it acts.
-    fn acts(&self) -> CurveForm;
+    fn acts(&self) -> Operation;
 
     /// Its value `f` [1] for an impact; `None` where it has none and leaves the impact unchanged.
     fn value(&self, of: &dyn Circumstances) -> Option<f64>;

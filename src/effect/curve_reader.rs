@@ -1,7 +1,7 @@
 //! Reads the `[[effects]]` table of a `fitted-curve` or a `level-shift`.
 
 use super::correction::LARGEST_VALUE;
-use super::{CurveAxis, CurveForm, CurveInput, CurveTarget, EffectInfo, FittedCurve, Parameter};
+use super::{CurveAxis, CurveInput, CurveTarget, EffectInfo, FittedCurve, Operation, Parameter};
 use crate::group::Declared;
 use crate::impact::ExtraInput;
 use crate::input::{InputError, List, Section, unknown};
@@ -20,9 +20,9 @@ pub(super) fn read(
 ) -> Result<FittedCurve, InputError> {
     let on = read_target(section)?;
     let factor = section
-        .choice("form", &CurveForm::OF_CURVES.map(CurveForm::name))?
+        .choice("form", &Operation::OF_CURVES.map(Operation::name))?
         .is_some_and(|form| form == "factor");
-    let form = if factor { CurveForm::Factor } else { CurveForm::Add };
+    let form = if factor { Operation::Factor } else { Operation::Add };
     if let [value] = kind.parameters {
         return read_level(value, section, on, form);
     }
@@ -52,7 +52,7 @@ fn read_level(
     value: &Parameter,
     section: &Section<'_>,
     on: CurveTarget,
-    form: CurveForm,
+    form: Operation,
 ) -> Result<FittedCurve, InputError> {
     Ok(FittedCurve { on, form, axes: Vec::new(), values: vec![value.read(section)?] })
 }

@@ -9,7 +9,7 @@
 //! them; a word without a value, and what is not stated or has no value, leave the impact unchanged.
 
 use super::correction::LARGEST_VALUE;
-use super::{Correction, CurveForm, CurveInput, CurveTarget, Effect, EffectInfo, Parameter, Search};
+use super::{Correction, CurveInput, CurveTarget, Effect, EffectInfo, Operation, Parameter, Search};
 use crate::group::{Circumstances, Declared};
 
 const ABOUT_VALUE: &str = "correction of e_n, of e_t or of capture";
@@ -68,7 +68,7 @@ pub struct FittedCurve {
     /// What it corrects.
     pub on: CurveTarget,
     /// How.
-    pub form: CurveForm,
+    pub form: Operation,
     /// Its inputs.
     pub axes: Vec<CurveAxis>,
     /// The value [1] at each combination of knots; that of the last axis changes first. A curve
@@ -79,7 +79,7 @@ pub struct FittedCurve {
 impl FittedCurve {
     /// A level of `e_n`; without a value it corrects nothing.
     fn level(values: &[f64]) -> Self {
-        let (on, form) = (CurveTarget::NormalRestitution, CurveForm::Add);
+        let (on, form) = (CurveTarget::NormalRestitution, Operation::Add);
         Self { on, form, axes: Vec::new(), values: values.to_vec() }
     }
 }
@@ -122,7 +122,7 @@ impl Correction for FittedCurve {
         self.on
     }
 
-    fn acts(&self) -> CurveForm {
+    fn acts(&self) -> Operation {
         self.form
     }
 

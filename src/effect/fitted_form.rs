@@ -4,7 +4,7 @@
 //! or corrects them as a curve does ([`correction`](super::correction)). No physics: it holds for the data of
 //! the fit (`valid`), and goes on beyond them. An impact whose input or group has no value is left unchanged.
 
-use super::{Correction, CurveForm, CurveInput, CurveTarget, Effect, EffectInfo, FormInfo};
+use super::{Correction, CurveInput, CurveTarget, Effect, EffectInfo, FormInfo, Operation};
 use crate::group::{Circumstances, Declared};
 
 pub(super) const INFO: EffectInfo = EffectInfo {
@@ -22,7 +22,7 @@ pub struct FittedForm {
     /// What it acts on.
     pub on: CurveTarget,
     /// How.
-    pub acts: CurveForm,
+    pub acts: Operation,
     /// The form.
     pub form: &'static FormInfo,
     /// Its input.
@@ -34,7 +34,7 @@ pub struct FittedForm {
 impl FittedForm {
     /// A constant without a value does nothing.
     fn nothing() -> Self {
-        let (on, acts) = (CurveTarget::NormalRestitution, CurveForm::Add);
+        let (on, acts) = (CurveTarget::NormalRestitution, Operation::Add);
         let [form, ..] = &super::FORMS;
         Self { on, acts, form, input: CurveInput::Input(0), parameters: Vec::new() }
     }
@@ -51,7 +51,7 @@ impl Correction for FittedForm {
         self.on
     }
 
-    fn acts(&self) -> CurveForm {
+    fn acts(&self) -> Operation {
         self.acts
     }
 

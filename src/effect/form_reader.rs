@@ -1,7 +1,7 @@
 //! Reads the `[[effects]]` table of a `fitted-form`.
 
 use super::curve_reader::{read_target, unknown_input};
-use super::{CurveForm, CurveInput, FORMS, FittedForm, FormInfo};
+use super::{CurveInput, FORMS, FittedForm, FormInfo, Operation};
 use crate::group::Declared;
 use crate::input::{InputError, Section};
 
@@ -11,13 +11,13 @@ use crate::input::{InputError, Section};
 /// [`InputError::Fault`] naming the key and the remedy.
 pub(super) fn read(section: &Section<'_>, declared: &Declared<'_>) -> Result<FittedForm, InputError> {
     let on = read_target(section)?;
-    let word = section.choice("acts", &CurveForm::ALL.map(CurveForm::name))?;
-    let acts = CurveForm::ALL.into_iter().find(|acts| Some(acts.name()) == word.as_deref());
+    let word = section.choice("acts", &Operation::ALL.map(Operation::name))?;
+    let acts = Operation::ALL.into_iter().find(|acts| Some(acts.name()) == word.as_deref());
     let form = read_form(section)?;
     let input = read_input(section, declared)?;
     let parameters = form.parameters.iter().map(|parameter| parameter.read(section));
     let parameters = parameters.collect::<Result<_, _>>()?;
-    Ok(FittedForm { on, acts: acts.unwrap_or(CurveForm::Set), form, input, parameters })
+    Ok(FittedForm { on, acts: acts.unwrap_or(Operation::Set), form, input, parameters })
 }
 
 fn read_form(section: &Section<'_>) -> Result<&'static FormInfo, InputError> {

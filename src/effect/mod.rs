@@ -35,7 +35,7 @@ use std::sync::Arc;
 
 pub use closed_form::{FORMS, FormInfo};
 pub(crate) use correction::shifted_probability;
-pub use correction::{Correction, CurveForm, CurveTarget};
+pub use correction::{Correction, CurveTarget, Operation};
 pub use curve_input::CurveInput;
 pub use fitted_curve::{CurveAxis, FittedCurve};
 pub use fitted_form::FittedForm;

@@ -15,7 +15,7 @@ use super::wall::WallPlace;
 use super::{Model, Wall};
 use crate::capture::Stickiness;
 use crate::deposit::layers;
-use crate::effect::{CurveForm, CurveInput, CurveTarget, OnMelt, Term, shifted_probability, stream};
+use crate::effect::{CurveInput, CurveTarget, OnMelt, Operation, Term, shifted_probability, stream};
 use crate::group::GROUPS;
 use crate::impact::{Impact, ImpactError, Outcome};
 use crate::normal::Contact;
@@ -317,10 +317,10 @@ impl Model {
             *corrected = match correction.on() {
                 CurveTarget::Capture => {
                     match correction.acts() {
-                        CurveForm::Add => shift += value,
-                        CurveForm::Factor => factor *= 1.0 + value,
-                        CurveForm::Times => factor *= value,
-                        CurveForm::Set => (capture, factor, shift) = (value, 1.0, 0.0),
+                        Operation::Add => shift += value,
+                        Operation::Factor => factor *= 1.0 + value,
+                        Operation::Times => factor *= value,
+                        Operation::Set => (capture, factor, shift) = (value, 1.0, 0.0),
                     }
                     shifted_probability(capture, factor, shift)
                 }

@@ -147,10 +147,8 @@ impl Model {
             };
             let flow = thermal.flow(&masses)?;
             let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
-            let changes = means.iter().zip(found).zip(masses.outwards());
-            let changes =
-                changes.filter(|(_, mass)| *mass > 0.0).map(|((mean, found), _)| (found - mean).abs());
-            let disagreement = changes.fold(0.0, f64::max);
+            let lying = means.iter().zip(found).zip(masses.outwards()).filter(|(_, mass)| *mass > 0.0);
+            let disagreement = lying.map(|((mean, found), _)| (found - mean).abs()).fold(0.0, f64::max);
             round += 1;
             if disagreement <= AGREED || round == MOST_ROUNDS {
                 return Ok((thermal, flow, disagreement));

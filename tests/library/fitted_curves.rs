@@ -1,7 +1,7 @@
 //! Fitted curves, level shifts and the inputs that a model file declares, against numbers by hand;
 //! the mean over draws against plain random draws.
 
-use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
+use nearwall::effect::{CurveAxis, CurveInput, CurveTarget, FittedCurve, Operation, Term};
 use nearwall::impact::{EXTRA_INPUTS, ExtraInput, INPUTS};
 use nearwall::model::block::{BLOCK, Block, Outcomes, Workspace};
 use nearwall::{Impact, ImpactRng, Model, Outcome};
@@ -185,10 +185,10 @@ fn curves_and_inputs_built_in_code_are_those_of_a_file() {
         CurveAxis { input: CurveInput::Input(place("T_p")), knots: vec![300.0, 400.0] },
         CurveAxis { input: CurveInput::Extra(1), knots: vec![0.0, 2.0] },
     ];
-    let (on, form) = (CurveTarget::TangentialRestitution, CurveForm::Factor);
+    let (on, form) = (CurveTarget::TangentialRestitution, Operation::Factor);
     let curve = FittedCurve { on, form, axes, values: vec![0.0, 0.1, 0.2, 0.4] };
     let level =
-        FittedCurve { on: CurveTarget::Capture, form: CurveForm::Add, axes: Vec::new(), values: vec![0.5] };
+        FittedCurve { on: CurveTarget::Capture, form: Operation::Add, axes: Vec::new(), values: vec![0.5] };
     let labels = vec!["A".to_owned()];
     let built = model("")
         .with_extra_inputs(vec![ExtraInput::words("lot", labels), ExtraInput::number("dose", 1.0)])

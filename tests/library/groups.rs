@@ -1,6 +1,6 @@
 //! Dimensionless groups and closed forms in model files, against numbers by hand.
 
-use nearwall::effect::{CurveForm, CurveInput, CurveTarget, FORMS, FittedForm, FormInfo, Term};
+use nearwall::effect::{CurveInput, CurveTarget, FORMS, FittedForm, FormInfo, Operation, Term};
 use nearwall::group::{GROUPS, GroupInfo, ProductGroup, ProductInput};
 use nearwall::impact::{ExtraInput, INPUTS};
 use nearwall::model::block::{Block, Outcomes, Workspace};
@@ -359,7 +359,7 @@ fn a_form_built_in_code_is_that_of_a_file() {
                      b = { value = -0.25, low = -0.3, high = -0.2 }\nvalid = { We = [1, 200] }\nsource = \"a fit\"",
     );
     let from_file = model(&text);
-    let (on, acts) = (CurveTarget::NormalRestitution, CurveForm::Factor);
+    let (on, acts) = (CurveTarget::NormalRestitution, Operation::Factor);
     let (form, parameters) = (FormInfo::from_name("power").unwrap(), vec![0.5, -0.25]);
     let input = CurveInput::Group(GroupInfo::place("We").unwrap());
     let term = Term::fitted_form(FittedForm { on, acts, form, input, parameters });

@@ -95,6 +95,7 @@ pub fn lab(system: System, law: Tangential, rng: &mut SetRng) -> Lab {
         errors: [Errors::Stated, Errors::Counts, Errors::Counts, Errors::Absent][rng.below(4)],
         base: world(),
         truth: world(),
+        liquid: None,
         case_error: None,
     }
 }

@@ -46,6 +46,8 @@ pub struct Lab {
     /// The model file and the truth.
     pub base: World,
     pub truth: World,
+    /// Surface tension and viscosity of a liquid that particles of char are instead, N/m and Pa s.
+    pub liquid: Option<[f64; 2]>,
     /// What is wrong with the case file.
     pub case_error: Option<CaseError>,
 }
@@ -203,6 +205,13 @@ impl Lab {
                 let from = text.find("model = \"thornton-ning\"").unwrap();
                 let to = from + text[from..].find("\n\n").unwrap();
                 format!("{}model = \"constant\"\ne_n = {e_n}{}", &text[..from], &text[to..])
+            }
+        };
+        let text = match self.liquid {
+            None => text,
+            Some([tension, viscosity]) => {
+                let properties = format!("surface_tension = {tension}\nviscosity = {viscosity}\n");
+                text.replacen("[materials.char-bits]\n", &format!("[materials.char-bits]\n{properties}"), 1)
             }
         };
         text + &self.effects

@@ -5,6 +5,7 @@
 //!   `docs/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter` checks
 //!   that runs which scatter more than stated name no cause, and the seconds.
+//! - `... --ignored rigs_with_a_group` checks that laws over a dimensionless group are found as such.
 //! - `... --ignored rigs_with_a_wrong_case` checks that the wall law is not blamed for the case.
 //! - `cargo test --release --test planted_rigs -- --nocapture clear` checks that clear effects are noticed.
 //! - `cargo test --release --test planted_rigs -- --nocapture advice` compares laboratories that
@@ -38,6 +39,7 @@ mod expected;
 #[allow(dead_code, reason = "impacts use all of it")]
 #[path = "../planted_effects/gates.rs"]
 mod gates;
+mod groups;
 mod lab;
 mod oracle;
 #[path = "../planted_effects/own_laws.rs"]
@@ -113,6 +115,25 @@ fn rigs_with_a_wrong_case() {
     };
     let all: Vec<_> = sets::wrong_cases().par_iter().map(one).collect();
     let failures = wrong_case::report(&all);
+    assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// A law over a dimensionless group is named or left open as such, and nothing else is named without it.
+#[test]
+#[ignore = "minutes: cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with_a_group"]
+fn rigs_with_a_group() {
+    let seed = random::seed();
+    let one = |recipe: &sets::Recipe| {
+        let set = recipe.make(seed);
+        let answer = run::run(&set, seed);
+        let judged = score::judge(&set, &answer);
+        let judged =
+            groups::judge(&set, answer.diagnosis.as_ref().unwrap_or(&serde_json::Value::Null), judged);
+        println!("{}", judged.line());
+        judged
+    };
+    let all: Vec<_> = sets::over_groups().par_iter().map(one).collect();
+    let failures = groups::report(&all);
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 

@@ -1,6 +1,7 @@
 //! The sets: every cause at one of three strengths, and rigs whose base is right.
 
 use crate::effects::{self, CAUSES, Plan};
+use crate::groups;
 use crate::lab::{Errors, Experiment, Lab, PARTICLES, Reading};
 use crate::oracle::Oracle;
 use crate::set_rng::SetRng;
@@ -101,6 +102,8 @@ impl Set {
 pub struct Recipe {
     pub name: String,
     cause: Option<&'static str>,
+    /// Whether the cause is a law over a group.
+    over_group: bool,
     index: usize,
     scatter: Option<Scatter>,
     wrong: Option<WrongNumber>,
@@ -120,6 +123,7 @@ impl Recipe {
 
     fn draw(&self, rng: &mut SetRng) -> Option<Set> {
         let mut plan = match self.cause {
+            Some(law) if self.over_group => groups::plan(law, rng),
             Some(cause) => effects::plan(cause, rng),
             None => match self.wrong {
                 Some(number) => wrong_case::plan(number, self.index, rng),
@@ -133,8 +137,10 @@ impl Recipe {
         let count = 6 + rng.below(15);
         let designs = lab.design(count, rng);
         let strength = STRENGTHS[self.index % 3] * rng.uniform((0.9, 1.1));
+        // A law over a group is told from one over speed or size by more than from none.
         let particles = match self.cause {
             None => rng.log_uniform(COUNTS),
+            Some(_) if self.over_group => rng.log_uniform(COUNTS),
             Some(_) => {
                 strength.powi(2) / lab.information(&designs, TRIAL[usize::from(!lab.rig.hits_once())], rng)?
             }
@@ -155,7 +161,8 @@ impl Recipe {
         let mut experiments = measure(designs)?;
         lab.even_errors(&mut experiments);
         let oracle = Oracle::of(&experiments, lab.errors);
-        if self.cause.is_some() && !(0.75..1.35).contains(&(oracle.expected / strength)) {
+        let of_strength = (0.75..1.35).contains(&(oracle.expected / strength));
+        if self.cause.is_some() && !self.over_group && !of_strength {
             return None;
         }
         let fresh_designs = lab.design(FRESH, &mut SetRng::new(count as u64, &self.name));
@@ -190,6 +197,7 @@ pub fn recipes(repeats: usize) -> Vec<Recipe> {
     let one = |family: &str, cause, index| Recipe {
         name: format!("{family}#{index}"),
         cause,
+        over_group: false,
         index,
         scatter: None,
         wrong: None,
@@ -212,6 +220,7 @@ pub fn scattered() -> Vec<Recipe> {
         (0..count).map(move |index| Recipe {
             name: format!("scatter-{name}#{index}"),
             cause: None,
+            over_group: false,
             index,
             scatter: Some(scatter),
             wrong: None,
@@ -228,12 +237,30 @@ pub fn wrong_cases() -> Vec<Recipe> {
         (0..count).map(move |index| Recipe {
             name: format!("{}#{index}", number.family()),
             cause: None,
+            over_group: false,
             index,
             scatter: None,
             wrong: Some(number),
         })
     };
     wrong_case::NUMBERS.into_iter().flat_map(of).filter(|recipe| is_wanted(&recipe.name)).collect()
+}
+
+/// Rigs whose law depends on a group: three times `NEARWALL_RIGS_SETS` (1) of each law, and of these only
+/// `NEARWALL_RIGS_ONLY`.
+pub fn over_groups() -> Vec<Recipe> {
+    let count = 3 * std::env::var("NEARWALL_RIGS_SETS").map_or(1, |count| count.parse().unwrap());
+    let of = |law: &'static str| {
+        (0..count).map(move |index| Recipe {
+            name: format!("{law}#{index}"),
+            cause: Some(law),
+            over_group: true,
+            index,
+            scatter: None,
+            wrong: None,
+        })
+    };
+    groups::LAWS.into_iter().flat_map(of).filter(|recipe| is_wanted(&recipe.name)).collect()
 }
 
 fn is_wanted(name: &str) -> bool {

@@ -1,4 +1,4 @@
-//! Units of any quantity, for columns that are no inputs: a conversion to SI, and the powers of the SI base units.
+//! Units of any quantity: a conversion to SI, and the powers of the SI base units.
 //!
 //! A unit is a product of symbols with whole powers, as in `Pa s`, `N/m`, `kg/m3` or `W/(m K)`; what follows the stroke
 //! divides, several symbols there need brackets. Prefixes from n to G. Degrees Celsius and Fahrenheit stand alone.
@@ -9,7 +9,7 @@ use super::unit::{Dimension, Unit, scaled};
 pub type UnitPowers = [i32; 4];
 
 /// Symbols with their conversion to SI, factor and divisor, and their powers.
-const SYMBOLS: [(&str, [f64; 2], UnitPowers); 20] = [
+const SYMBOLS: [(&str, [f64; 2], UnitPowers); 21] = [
     ("1", [1.0, 1.0], [0; 4]),
     ("-", [1.0, 1.0], [0; 4]),
     ("%", [1.0, 100.0], [0; 4]),
@@ -22,6 +22,7 @@ const SYMBOLS: [(&str, [f64; 2], UnitPowers); 20] = [
     ("h", [3600.0, 1.0], [0, 0, 1, 0]),
     ("K", [1.0, 1.0], [0, 0, 0, 1]),
     ("Hz", [1.0, 1.0], [0, 0, -1, 0]),
+    ("rpm", [std::f64::consts::TAU, 60.0], [0, 0, -1, 0]),
     ("N", [1.0, 1.0], [1, 1, -2, 0]),
     ("dyn", [1.0, 1e5], [1, 1, -2, 0]),
     ("Pa", [1.0, 1.0], [1, -1, -2, 0]),
@@ -74,6 +75,11 @@ impl AnyUnit {
         // Factor and divisor stay apart: 75/1e6 is 75e-6 exactly, 75 * 1e-6 is not.
         Some(Self { conversion: scaled("", factor, divisor), si })
     }
+}
+
+/// Factor and divisor to SI of a unit; `None` where it is not known.
+pub(super) fn conversion(name: &str) -> Option<[f64; 2]> {
+    Some(product(name)?.0)
 }
 
 /// The powers of a unit; `None` where it is not known.

@@ -1,5 +1,6 @@
 //! The units of a column map.
 
+use super::any_unit::conversion;
 use nearwall::input::{InputError, Section, unknown};
 
 /// A unit and its conversion to SI: `(value + offset) factor / divisor`.
@@ -16,7 +17,7 @@ pub(super) struct Unit {
 
 impl Unit {
     /// The SI unit of any dimension.
-    pub(super) const SI: Self = part("SI", 1.0);
+    pub(super) const SI: Self = scaled("SI", 1.0, 1.0);
 
     /// The unit of a difference, as a standard error: 1 °C is 1 K.
     pub(super) fn of_difference(self) -> Self {
@@ -33,26 +34,15 @@ pub(super) const fn scaled(name: &'static str, factor: f64, divisor: f64) -> Uni
     Unit { name, offset: 0.0, factor, divisor }
 }
 
-/// A unit of which `divisor` make one SI unit.
-const fn part(name: &'static str, divisor: f64) -> Unit {
-    scaled(name, 1.0, divisor)
-}
-
-const LENGTH_UNITS: [Unit; 5] =
-    [part("m", 1.0), part("mm", 1e3), part("um", 1e6), part("µm", 1e6), part("nm", 1e9)];
-const SPEED_UNITS: [Unit; 4] = [part("m/s", 1.0), part("cm/s", 1e2), part("mm/s", 1e3), part("km/h", 3.6)];
-const TEMPERATURE_UNITS: [Unit; 4] = [
-    part("K", 1.0),
+/// The units of temperatures, which have other zeros.
+const TEMPERATURES: [Unit; 4] = [
+    scaled("K", 1.0, 1.0),
     Unit { name: "C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "°C", offset: 273.15, factor: 1.0, divisor: 1.0 },
     Unit { name: "F", offset: 459.67, factor: 5.0, divisor: 9.0 },
 ];
-const SPIN_UNITS: [Unit; 4] =
-    [part("rad/s", 1.0), part("s^-1", 1.0), part("1/s", 1.0), scaled("rpm", std::f64::consts::TAU, 60.0)];
-const DENSITY_UNITS: [Unit; 2] = [part("kg/m3", 1.0), scaled("g/cm3", 1e3, 1.0)];
-const SHARE_UNITS: [Unit; 2] = [part("1", 1.0), part("%", 100.0)];
 /// Angles are converted to degrees, not radians: 90 is a right angle exactly.
-const ANGLE_UNITS: [Unit; 2] = [part("deg", 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
+const ANGLES: [Unit; 2] = [scaled("deg", 1.0, 1.0), scaled("rad", 180.0, std::f64::consts::PI)];
 
 /// The dimension of a column.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -85,16 +75,17 @@ impl Dimension {
         Self::Text,
     ];
 
-    /// Its units; empty if it has none.
-    pub(super) fn units(self) -> &'static [Unit] {
+    /// The names of its units, that of SI first; empty if it has none. All but those of temperatures and angles are
+    /// products of symbols ([`conversion`]).
+    pub(super) fn names(self) -> &'static [&'static str] {
         match self {
-            Self::Length => &LENGTH_UNITS,
-            Self::Speed => &SPEED_UNITS,
-            Self::Temperature => &TEMPERATURE_UNITS,
-            Self::Spin => &SPIN_UNITS,
-            Self::Density => &DENSITY_UNITS,
-            Self::Share => &SHARE_UNITS,
-            Self::Angle => &ANGLE_UNITS,
+            Self::Length => &["m", "mm", "um", "µm", "nm"],
+            Self::Speed => &["m/s", "cm/s", "mm/s", "km/h"],
+            Self::Temperature => &["K", "C", "°C", "F"],
+            Self::Spin => &["rad/s", "s^-1", "1/s", "rpm"],
+            Self::Density => &["kg/m3", "g/cm3"],
+            Self::Share => &["1", "%"],
+            Self::Angle => &["deg", "rad"],
             Self::Count | Self::Text => &[],
         }
     }
@@ -102,7 +93,13 @@ impl Dimension {
     /// The unit of this name. The Greek letter mu is accepted for the micro sign, which looks the same.
     pub(super) fn unit(self, name: &str) -> Option<Unit> {
         let name = name.replace('μ', "µ").replace('³', "3");
-        self.units().iter().find(|unit| unit.name == name).copied()
+        let own = |units: &[Unit]| units.iter().find(|unit| unit.name == name).copied();
+        let name = self.names().iter().find(|known| **known == name)?;
+        match self {
+            Self::Temperature => own(&TEMPERATURES),
+            Self::Angle => own(&ANGLES),
+            _ => conversion(name).map(|[factor, divisor]| scaled(name, factor, divisor)),
+        }
     }
 
     /// The unit that a file states: also `-`, which means that there is none, and 1 of a count.
@@ -111,24 +108,21 @@ impl Dimension {
         if none { Some(Unit::SI) } else { self.unit(name) }
     }
 
-    /// The names of its units.
+    /// The names of its units in a message.
     pub(super) fn unit_names(self) -> String {
-        let names: Vec<&str> = self.units().iter().map(|unit| unit.name).collect();
-        if names.is_empty() { "-".to_owned() } else { names.join(", ") }
+        if self.names().is_empty() { "-".to_owned() } else { self.names().join(", ") }
     }
 }
 
 /// Reads the key `unit`, SI by default; an angle has no default.
 pub(super) fn read_unit(details: &Section<'_>, dimension: Dimension) -> Result<Unit, InputError> {
-    let units = dimension.units();
-    if units.is_empty() {
+    if dimension.names().is_empty() {
         return Ok(Unit::SI);
     }
     match details.text("unit")? {
-        Some(word) => dimension.unit(&word).ok_or_else(|| {
-            let known: Vec<&str> = units.iter().map(|unit| unit.name).collect();
-            details.fault("unit", unknown(&word, "unit", &known))
-        }),
+        Some(word) => dimension
+            .unit(&word)
+            .ok_or_else(|| details.fault("unit", unknown(&word, "unit", dimension.names()))),
         None if dimension == Dimension::Angle => Err(details.missing("unit", "\"deg\" or \"rad\"")),
         None => Ok(Unit::SI),
     }
@@ -177,13 +171,25 @@ mod tests {
     }
 
     #[test]
+    fn every_unit_has_a_conversion() {
+        for dimension in Dimension::ALL {
+            assert!(
+                dimension
+                    .names()
+                    .iter()
+                    .all(|name| dimension.unit(name).is_some_and(|unit| unit.name == *name))
+            );
+        }
+    }
+
+    #[test]
     fn every_input_can_be_mapped_once() {
         let all: Vec<&str> = names().map(|(name, _)| name).collect();
         assert!(INPUTS.iter().all(|input| all.contains(&input.name)));
         assert!(all.iter().enumerate().all(|(index, name)| !all[..index].contains(name)));
         for input in &INPUTS {
             let dimension = names().find(|(name, _)| *name == input.name).unwrap().1;
-            assert_eq!(dimension.units()[0].name, input.unit, "{}", input.name);
+            assert_eq!(dimension.names()[0], input.unit, "{}", input.name);
         }
     }
 }

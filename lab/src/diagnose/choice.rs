@@ -148,7 +148,7 @@ impl CauseChoice {
         let data = if grounds[ground].is_rival() { data } else { &grounds[ground].data };
         let hypothesis = best.map_or_else(|| Hypothesis::base(data), |best| best.fitted.hypothesis.clone());
         let name = |one: &ScoredCandidate| one.addition.is_systematic().then(|| one.addition.name(data));
-        let discoveries = explanations.named(name);
+        let discoveries = explanations.named(|one| name(one).into_iter().collect());
         let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
         let state = FoundParts::of(&hypothesis, &keys);
         let causes: Vec<String> = discoveries.iter().map(|one| one.addition.name(data)).collect();

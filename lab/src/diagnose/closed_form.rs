@@ -12,21 +12,21 @@ use super::evaluation::Evaluation;
 use super::likelihood::{capture_odds, visible_capture};
 use super::observable::Observable;
 use super::part::rounded;
-use super::record::Estimate;
+use super::record::{Estimate, FormPoint};
 use super::search::{SearchAxis, best_of, descend, grid};
 use crate::dataset::ColumnValues;
-use nearwall::effect::{CurveForm, FORMS, FormInfo};
+use nearwall::effect::{FORMS, FormInfo, Operation};
 
 /// Places of a nonlinear parameter at which fits begin: of one, and of each of two.
 const PLACES: [usize; 2] = [40, 12];
 /// Places of each parameter of a threshold on the grid of its intervals.
 const FINE_PLACES: usize = 80;
 /// Range of the exponent of a power [1].
-const EXPONENTS: [f64; 2] = [-4.0, 4.0];
+pub(super) const EXPONENTS: [f64; 2] = [-4.0, 4.0];
 /// Range of the steepness of a threshold [1].
-const STEEPNESS: [f64; 2] = [1.0, 200.0];
+pub(super) const STEEPNESS: [f64; 2] = [1.0, 200.0];
 /// A scale of the column may lie beyond its range by this factor [1].
-const BEYOND: f64 = 10.0;
+pub(super) const BEYOND: f64 = 10.0;
 /// Points that choose among these places.
 const COARSE_POINTS: usize = 200;
 /// Iterations a parameter of a descent.
@@ -40,13 +40,15 @@ const LEAST_LEFT: usize = 2;
 #[derive(Debug, Clone)]
 pub(super) struct ClosedForm {
     pub info: &'static FormInfo,
-    pub acts: CurveForm,
+    pub acts: Operation,
     /// In the order of the form.
     pub parameters: Vec<f64>,
     /// Whether each parameter is fitted; others are at their defaults.
     pub free: Vec<bool>,
     /// 95 % intervals of the parameters; empty before the final fit.
     pub intervals: Vec<[f64; 2]>,
+    /// Its values with their 95 % band; empty before the final fit.
+    pub line: Vec<FormPoint>,
 }
 
 /// A form with its criterion: minus the log likelihood plus half the logarithm of the number of readings a parameter.
@@ -77,14 +79,14 @@ impl ClosedForm {
     pub fn replacing(&self, prediction: f64) -> Option<Self> {
         let (nonlinear, intercepts) = (nonlinear(self.info), intercepts(self.info));
         let taken = |(place, value): (usize, &f64)| match self.acts {
-            CurveForm::Times if !nonlinear.contains(&place) => value * prediction,
-            CurveForm::Add if intercepts.contains(&self.info.parameters[place].name) => value + prediction,
+            Operation::Times if !nonlinear.contains(&place) => value * prediction,
+            Operation::Add if intercepts.contains(&self.info.parameters[place].name) => value + prediction,
             _ => *value,
         };
         let parameters = self.parameters.iter().enumerate().map(taken).collect();
         let possible =
-            self.acts == CurveForm::Times || (self.acts == CurveForm::Add && !intercepts.is_empty());
-        possible.then(|| Self { parameters, acts: CurveForm::Set, ..self.clone() })
+            self.acts == Operation::Times || (self.acts == Operation::Add && !intercepts.is_empty());
+        possible.then(|| Self { parameters, acts: Operation::Set, ..self.clone() })
     }
 
     /// The fitted parameters by name, with six digits; none before the final fit. The unit of the column is `unit`.
@@ -185,7 +187,7 @@ fn unit_of(parameter: &str, column: &'static str) -> &'static str {
 /// A form, how it acts, and which of its parameters are fitted.
 struct Kind {
     info: &'static FormInfo,
-    acts: CurveForm,
+    acts: Operation,
     free: Vec<bool>,
 }
 
@@ -291,8 +293,8 @@ impl Points {
     /// The forms to fit. A factor leaves to laws that join later what they change.
     fn kinds(&self) -> Vec<Kind> {
         let acts = match self.observable {
-            Observable::Capture => vec![CurveForm::Set],
-            _ => vec![CurveForm::Times, CurveForm::Add],
+            Observable::Capture => vec![Operation::Set],
+            _ => vec![Operation::Times, Operation::Add],
         };
         let is_offered = |form: &&FormInfo| match form.name {
             "constant" => false,
@@ -346,6 +348,7 @@ impl Points {
             parameters: self.in_units(kind, parameters),
             free: kind.free.clone(),
             intervals: Vec::new(),
+            line: Vec::new(),
         };
         Some((form, misfit + 0.5 * count as f64 * number.ln()))
     }
@@ -410,9 +413,9 @@ impl Points {
         let mut square = 0.0;
         let mut shapes = vec![0.0; count];
         for point in self.points.iter().step_by(step) {
-            let scale = if kind.acts == CurveForm::Times { point.predicted } else { 1.0 };
+            let scale = if kind.acts == Operation::Times { point.predicted } else { 1.0 };
             let fixed = if has_fixed { scale * kind.info.value(&parameters, point.x) } else { 0.0 };
-            let replaced = if kind.acts == CurveForm::Add { 0.0 } else { point.predicted };
+            let replaced = if kind.acts == Operation::Add { 0.0 } else { point.predicted };
             let target = point.residual + replaced - fixed;
             for (shape, unit) in shapes.iter_mut().zip(&units) {
                 *shape = scale * kind.info.value(unit, point.x);
@@ -492,7 +495,7 @@ impl Points {
         let (mut normal, mut outer) =
             (DMatrix::<f64>::zeros(count, count), DMatrix::<f64>::zeros(count, count));
         for point in &self.points {
-            let scale = if closed.acts == CurveForm::Times { point.predicted } else { 1.0 };
+            let scale = if closed.acts == Operation::Times { point.predicted } else { 1.0 };
             let slopes = scale * slopes(closed, point.x * self.unit);
             let product = &slopes * slopes.transpose();
             outer += &product * (point.weight * point.residual).powi(2);
@@ -594,7 +597,7 @@ fn middle(values: impl Iterator<Item = (f64, f64)>) -> [f64; 2] {
 }
 
 /// The form with its defaults kept, and with each and all of them fitted.
-fn variants(info: &'static FormInfo, acts: CurveForm) -> Vec<Kind> {
+fn variants(info: &'static FormInfo, acts: Operation) -> Vec<Kind> {
     let optional: Vec<usize> =
         (0..info.parameters.len()).filter(|place| info.parameters[*place].default.is_some()).collect();
     let of = |mask: usize| {

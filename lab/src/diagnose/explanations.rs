@@ -109,9 +109,14 @@ impl<A: Clone> Explanations<A> {
     }
 
     /// The additions of the most probable explanation that are probable enough to be named. None beside
-    /// a rival, which asks the user before any physics is named. `name` is `None` for what is noise.
-    pub fn named(&self, name: impl Fn(&A) -> Option<String>) -> Vec<A> {
-        let probable = |one: &&A| name(one).is_some_and(|cause| self.probability(&cause) >= NAMED);
+    /// a rival, which asks the user before any physics is named. `names` are the cause and those that describe the
+    /// same dependence, which count together; none for what is noise.
+    pub fn named(&self, names: impl Fn(&A) -> Vec<String>) -> Vec<A> {
+        let probable = |one: &&A| {
+            let names = names(one);
+            let any = self.0.iter().filter(|one| names.iter().any(|name| one.has(name)));
+            any.map(|one| one.probability).sum::<f64>() >= NAMED
+        };
         match self.best() {
             Some(best) if best.is_physics() => best.told.additions.iter().filter(probable).cloned().collect(),
             _ => Vec::new(),

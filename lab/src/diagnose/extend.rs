@@ -5,7 +5,7 @@ use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Val
 use super::closed_form::ClosedForm;
 use super::constant_capture::ConstantCapture;
 use super::curve::{ColumnCurve, ColumnCurveForm};
-use super::data_split::{ColumnKind, DataSplit};
+use super::data_split::{ColumnKind, Covariate, DataSplit};
 use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{FittedPart, Part, rounded};
@@ -89,8 +89,9 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
         Observable::Capture => "capture",
         observable => observable.name(),
     };
-    if let Some(closed) = &curve.closed {
-        return fitted_form(data, curve, closed, on);
+    if let (Some(closed), Some((column, _))) = (&curve.closed, curve.form.sides.first()) {
+        let Covariate { name, unit, .. } = &data.covariates[*column];
+        return form_effect(on, (name, unit), closed, valid_over(data, curve));
     }
     let form = if curve.form.multiplicative { "factor" } else { "add" };
     let sides = &curve.form.sides;
@@ -100,18 +101,22 @@ fn fitted_curve(data: &DataSplit, curve: &ColumnCurve) -> Table {
     curve_effect([on, form], &columns, &knots, (&curve.heights, wide), valid_over(data, curve))
 }
 
-/// A closed form as an effect, with the intervals of its parameters.
-fn fitted_form(data: &DataSplit, curve: &ColumnCurve, closed: &ClosedForm, on: &str) -> Table {
+/// A closed form over an input or group with its unit as an effect, with the intervals of its parameters.
+pub(super) fn form_effect(
+    on: &str,
+    (input, unit): (&str, &'static str),
+    closed: &ClosedForm,
+    valid: InlineTable,
+) -> Table {
     let mut table = Table::from_iter([("kind", value("fitted-form")), ("on", value(on))]);
     table.insert("form", value(closed.info.name));
     table.insert("acts", value(closed.acts.name()));
-    table.extend(curve.form.columns(data).first().map(|column| ("input", value(column.as_str()))));
+    table.insert("input", value(input));
     for (parameter, number) in closed.info.parameters.iter().zip(&closed.parameters) {
         table.insert(parameter.name, value(rounded(*number)));
     }
-    let unit = curve.form.sides.first().map_or("", |(column, _)| data.covariates[*column].unit);
     insert_estimates(&mut table, closed.estimates(unit));
-    table.insert("valid", value(valid_over(data, curve)));
+    table.insert("valid", value(valid));
     table.insert("source", value(SOURCE));
     table
 }

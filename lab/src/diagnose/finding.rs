@@ -202,7 +202,7 @@ impl Finding {
 }
 
 /// A closed form in a sentence.
-fn equation(form: &CauseForm) -> String {
+pub(super) fn equation(form: &CauseForm) -> String {
     let mut text = format!(" Its form: {}", form.equation);
     if let [first, ..] = form.others.as_slice() {
         text += &format!(
@@ -217,18 +217,23 @@ fn equation(form: &CauseForm) -> String {
     text
 }
 
+/// A dimensionless group with its formula; `None` for any other name.
+pub(super) fn group_words(name: &str) -> Option<String> {
+    let group = GROUPS.iter().find(|group| group.name == name)?;
+    Some(format!("group {} = {}", group.name, group.formula))
+}
+
 /// The explanation of a finding for a reader.
 fn explain(finding: &Finding, observable: Observable) -> String {
     let Finding { cause, variables, indistinguishable_from, .. } = finding;
     let quantity = observable.title();
     if cause.starts_with("unknown:") {
         let columns = variables.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>();
-        let group = variables.first().and_then(|name| GROUPS.iter().find(|group| group.name == name));
-        let noun = match group {
-            Some(group) => format!("group {} = {}", group.name, group.formula),
-            None if columns.len() > 1 => format!("columns {}", columns.join(" and ")),
-            None => format!("column {}", columns.join("")),
-        };
+        let noun = variables.first().and_then(|name| group_words(name));
+        let noun = noun.unwrap_or_else(|| match columns.as_slice() {
+            [_, _, ..] => format!("columns {}", columns.join(" and ")),
+            _ => format!("column {}", columns.join("")),
+        });
         let text = format!(
             "The {quantity} depends on the {noun}. No effect of the library explains this dependence."
         );

@@ -9,7 +9,7 @@ use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::rounded;
 use super::record::{CauseForm, FormPoint, OtherForm};
-use nearwall::effect::CurveForm;
+use nearwall::effect::Operation;
 
 /// Forms less probable than this are not listed [1].
 const LEAST_LISTED: f64 = 0.02;
@@ -85,34 +85,48 @@ const RESEMBLANCES: [Resemblance; 11] = [
 pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<CauseForm> {
     let closed = curve.closed.as_ref()?;
     let column = hypothesis.data.covariates.get(curve.form.sides.first()?.0)?;
-    let observable = curve.form.observable;
-    let fit = FormFit::new(hypothesis, curve, closed);
-    let record = CauseForm {
+    let all: Vec<Rated> = forms(curve, &without(hypothesis, curve));
+    let tried: Vec<(&'static str, f64)> = all.iter().map(|(form, cost)| (form.info.name, -cost)).collect();
+    let seen = hypothesis.data.range(&column.name);
+    Some(record(closed, curve.form.observable, (&column.name, column.unit, seen), &tried))
+}
+
+/// What a finding says of a form over a column with its unit and its range; `tried` are the forms that were compared, with the
+/// logarithm of the evidence of each [nats].
+pub(super) fn record(
+    closed: &ClosedForm,
+    observable: Observable,
+    (column, unit, seen): (&str, &'static str, Option<[f64; 2]>),
+    tried: &[(&'static str, f64)],
+) -> CauseForm {
+    let (probability, others) = probabilities(closed.info.name, tried);
+    CauseForm {
         observable: observable.name(),
         form: closed.info.name,
         acts: closed.acts.name(),
-        equation: equation(closed, observable, &column.name),
-        parameters: closed.estimates(column.unit).collect(),
-        seen: hypothesis.data.range(&column.name),
-        line: hypothesis.data.range(&column.name).map(|seen| fit.line(seen)).unwrap_or_default(),
-        probability: 1.0,
-        others: Vec::new(),
-        resembles: resemblance(closed, observable, &column.name),
-    };
-    Some(with_probabilities(record, curve, &fit.rows))
+        equation: equation(closed, observable, column),
+        parameters: closed.estimates(unit).collect(),
+        seen,
+        line: closed.line.clone(),
+        probability,
+        others,
+        resembles: resemblance(closed, observable, column),
+    }
 }
 
-/// Sets the intervals of the parameters of every closed form.
+/// Sets the intervals of the parameters and the band of every closed form.
 pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>) {
     let one = |curve: &ColumnCurve| {
         let closed = curve.closed.as_ref()?;
         let fit = FormFit::new(hypothesis, curve, closed);
-        Some(intervals(curve, &fit.freed, &fit.with, fit.quantile))
+        let column = &hypothesis.data.covariates.get(curve.form.sides.first()?.0)?.name;
+        let line = hypothesis.data.range(column).map(|seen| fit.line(seen)).unwrap_or_default();
+        Some((intervals(curve, &fit.freed, &fit.with, fit.quantile), line))
     };
-    let found: Vec<Option<Vec<[f64; 2]>>> = hypothesis.curves.iter().map(one).collect();
+    let found: Vec<_> = hypothesis.curves.iter().map(one).collect();
     for (curve, found) in hypothesis.curves.iter_mut().zip(found) {
         if let (Some(closed), Some(found)) = (&mut curve.closed, found) {
-            closed.intervals = found;
+            (closed.intervals, closed.line) = found;
         }
     }
 }
@@ -123,8 +137,7 @@ struct FormFit<'a, 'b> {
     closed: &'a ClosedForm,
     /// The form with its defaults fitted too: the data do not know that they are right.
     freed: ClosedForm,
-    /// The fitted rows without and with the form.
-    rows: Evaluation<'b>,
+    /// The fitted rows with the form.
     with: Evaluation<'b>,
     /// Student's quantile of a 95 % interval.
     quantile: f64,
@@ -132,12 +145,10 @@ struct FormFit<'a, 'b> {
 
 impl<'a, 'b> FormFit<'a, 'b> {
     fn new(hypothesis: &Hypothesis<'b>, curve: &'a ColumnCurve, closed: &'a ClosedForm) -> Self {
-        let mut bare = hypothesis.clone();
-        bare.remove_curve(curve);
-        let rows = bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter();
+        let rows = without(hypothesis, curve);
         let freed = closed.freed().again(curve, &rows).unwrap_or_else(|| closed.clone());
         let (with, quantile) = (with_curve(hypothesis), quantile(hypothesis, closed));
-        Self { curve, closed, freed, rows, with, quantile }
+        Self { curve, closed, freed, with, quantile }
     }
 
     /// The form with its 95 % band over the range where it was seen and [`BEYOND_SEEN`] further on either side.
@@ -156,7 +167,7 @@ impl<'a, 'b> FormFit<'a, 'b> {
 }
 
 /// Places over a range and beyond: by a factor where the range is positive and wide, else by half of its width.
-fn places([low, high]: [f64; 2]) -> Vec<f64> {
+pub(super) fn places([low, high]: [f64; 2]) -> Vec<f64> {
     let is_wide = low > 0.0 && high > WIDE * low;
     let [from, to] = if is_wide {
         [(low / BEYOND_SEEN).ln(), (high * BEYOND_SEEN).ln()]
@@ -167,6 +178,13 @@ fn places([low, high]: [f64; 2]) -> Vec<f64> {
     let share = |place: usize| place as f64 / (LINE_POINTS - 1) as f64;
     let at = (0..LINE_POINTS).map(|place| from + share(place) * (to - from));
     at.map(|at| if is_wide { at.exp() } else { at }).collect()
+}
+
+/// The fitted rows under the hypothesis without a curve.
+fn without<'b>(hypothesis: &Hypothesis<'b>, curve: &ColumnCurve) -> Evaluation<'b> {
+    let mut bare = hypothesis.clone();
+    bare.remove_curve(curve);
+    bare.evaluate(hypothesis.data.fit.clone(), bare.offsets()).with_fitted_scatter()
 }
 
 /// The fitted rows under the hypothesis with its curves.
@@ -181,25 +199,22 @@ fn quantile(hypothesis: &Hypothesis<'_>, closed: &ClosedForm) -> f64 {
     StudentsT::new(0.0, 1.0, freedom).map_or(2.0, |law| law.inverse_cdf(0.975))
 }
 
-/// The probability of the form among all forms on rows without the curve, and the others.
-fn with_probabilities(mut record: CauseForm, curve: &ColumnCurve, rows: &Evaluation<'_>) -> CauseForm {
-    let all: Vec<Rated> = forms(curve, rows);
+/// The probability of a form among all that were tried, and the others.
+fn probabilities(own: &str, tried: &[(&'static str, f64)]) -> (f64, Vec<OtherForm>) {
     let best = |name: &str| {
-        let own = all.iter().filter(|(form, _)| form.info.name == name).map(|(_, cost)| *cost);
-        own.fold(f64::INFINITY, f64::min)
+        let of_name = tried.iter().filter(|(form, _)| *form == name).map(|(_, evidence)| *evidence);
+        of_name.fold(f64::NEG_INFINITY, f64::max)
     };
-    let least = all.iter().map(|(_, cost)| *cost).fold(f64::INFINITY, f64::min);
-    let names: std::collections::BTreeSet<&'static str> =
-        all.iter().map(|(form, _)| form.info.name).collect();
-    let weight = |name: &str| (least - best(name)).exp();
+    let most = tried.iter().map(|(_, evidence)| *evidence).fold(f64::NEG_INFINITY, f64::max);
+    let names: std::collections::BTreeSet<&'static str> = tried.iter().map(|(name, _)| *name).collect();
+    let weight = |name: &str| (best(name) - most).exp();
     let total: f64 = names.iter().map(|name| weight(name)).sum();
     let share = |name: &str| rounded(weight(name) / total.max(f64::MIN_POSITIVE));
-    record.probability = share(record.form);
-    let others = names.iter().filter(|name| **name != record.form);
+    let others = names.iter().filter(|name| **name != own);
     let others = others.map(|name| OtherForm { form: name, probability: share(name) });
-    record.others = others.filter(|other| other.probability > LEAST_LISTED).collect();
-    record.others.sort_by(|a, b| b.probability.total_cmp(&a.probability));
-    record
+    let mut others: Vec<OtherForm> = others.filter(|other| other.probability > LEAST_LISTED).collect();
+    others.sort_by(|a, b| b.probability.total_cmp(&a.probability));
+    (if names.is_empty() { 1.0 } else { share(own) }, others)
 }
 
 /// The law that a form resembles.
@@ -240,13 +255,21 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
     }
     let formula = closed.info.equation.split(", ").next().unwrap_or_default();
     let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
+    let value = twice_negative(&value).unwrap_or(value);
     let formula = match closed.acts {
-        CurveForm::Set => format!("{name} = {value}"),
-        CurveForm::Add => format!("{name} = base + ({value})"),
-        CurveForm::Factor => format!("{name} = base (1 + {value})"),
-        CurveForm::Times => format!("{name} = base ({value})"),
+        Operation::Set => format!("{name} = {value}"),
+        Operation::Add => format!("{name} = base + ({value})"),
+        Operation::Factor => format!("{name} = base (1 + {value})"),
+        Operation::Times => format!("{name} = base ({value})"),
     };
     if is_plain { formula } else { format!("{formula} with x = {column}") }
+}
+
+/// An equation without a power `^-(-n)`; `None` where there is none.
+fn twice_negative(equation: &str) -> Option<String> {
+    let (before, rest) = equation.split_once("^-(-")?;
+    let (exponent, after) = rest.split_once(')')?;
+    Some(format!("{before}^{exponent}{after}"))
 }
 
 /// How steep a threshold is [1]; 0 for another form.

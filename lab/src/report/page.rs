@@ -4,11 +4,13 @@ use askama::Template;
 
 use super::chart::Figure;
 
+/// Fewest headings with a list of contents.
+const LISTED_HEADINGS: usize = 3;
+
 /// One section of a page. All text is plain; the template escapes it.
 #[derive(Debug, Clone, PartialEq)]
 enum PagePart {
     /// Links to all headings.
-    Contents,
     Heading(String),
     Subheading(String),
     Lead(String),
@@ -78,6 +80,22 @@ impl Table {
         Self { caption: caption.to_owned(), header, rows, text_columns }
     }
 
+    /// The table for a terminal: columns of equal width under the caption.
+    pub fn text(&self) -> String {
+        let mut text = format!("\n{}\n", self.caption);
+        let lines = std::iter::once(&self.header).chain(&self.rows);
+        let width = |column: usize| {
+            let cells = lines.clone().filter_map(|line| line.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.header.len()).map(width).collect();
+        for line in lines.clone() {
+            let padded = line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
+            text += &format!("  {}\n", padded.collect::<Vec<_>>().join("  ").trim_end());
+        }
+        text
+    }
+
     /// A table with a row for each item; a column is its head and the text that it shows of an item.
     pub fn of_items<T>(
         caption: &str,
@@ -111,18 +129,21 @@ impl Page {
         Self { title: title.to_owned(), sections: Vec::new(), foot: String::new(), version }
     }
 
-    /// Adds a list of contents: the headings of the page, with links.
-    pub fn contents(&mut self) {
-        self.sections.push(PagePart::Contents);
+    /// What the page can do in a browser.
+    const SCRIPT: &str = include_str!("page.js");
+
+    /// The headings with the places of their sections.
+    fn headings(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.sections.iter().enumerate().filter_map(|(place, part)| match part {
+            PagePart::Heading(text) => Some((place, text.as_str())),
+            _ => None,
+        })
     }
 
-    /// The headings and their places on the page.
-    fn headings(&self) -> Vec<(&String, String)> {
-        let found = self.sections.iter().filter_map(|part| match part {
-            PagePart::Heading(text) => Some((text, place(text))),
-            _ => None,
-        });
-        found.collect()
+    /// Whether the list of contents stands before this section: the first heading of several.
+    fn begins_contents(&self, place: &usize) -> bool {
+        self.headings().count() >= LISTED_HEADINGS
+            && self.headings().next().is_some_and(|(first, _)| first == *place)
     }
 
     /// Adds a heading.
@@ -204,12 +225,6 @@ impl Page {
     pub fn html(&self) -> Result<String, askama::Error> {
         self.render()
     }
-}
-
-/// A heading as the id of its section.
-fn place(heading: &str) -> String {
-    let words = heading.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| !word.is_empty());
-    format!("section-{}", words.map(str::to_ascii_lowercase).collect::<Vec<_>>().join("-"))
 }
 
 #[cfg(test)]

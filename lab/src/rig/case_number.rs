@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::case_text::{change_value, find_mut};
-use crate::simulate::number_of;
+use crate::simulate::{DistributionKey, number_of};
 
 /// How a number changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -83,9 +83,10 @@ const fn speed(key: &'static str) -> NumberKind {
     }
 }
 
-/// Keys of the middle and of the spread of a distribution.
-const MIDDLES: [&str; 4] = ["value", "mean", "median", "scale"];
-const SPREADS: [&str; 3] = ["deviation", "geometric_deviation", "exponent"];
+/// What the keys of a distribution hold that are its middle, its spread, and the ends of an even one.
+const MIDDLE: &[DistributionKey] = &[DistributionKey::Middle];
+pub(super) const SPREAD: &[DistributionKey] = &[DistributionKey::Deviation, DistributionKey::Shape];
+const ENDS: &[DistributionKey] = &[DistributionKey::Bound];
 
 /// A number of a case with its standard error.
 #[derive(Debug, Clone)]
@@ -177,12 +178,12 @@ impl CaseNumber {
             None => self.change(item, &|value| self.moved(value, widths)),
             Some(table) => {
                 let is_even = table.get("distribution").and_then(Item::as_str) == Some("uniform");
-                let keys: &[&str] = match (self.spread, is_even) {
-                    (true, _) => &SPREADS,
-                    (false, true) => &["min", "max"],
-                    (false, false) => &MIDDLES,
+                let keys = match (self.spread, is_even) {
+                    (true, _) => SPREAD,
+                    (false, true) => ENDS,
+                    (false, false) => MIDDLE,
                 };
-                for key in keys {
+                for key in DistributionKey::names(keys) {
                     if let Some(item) = table.get_mut(key) {
                         self.change(item, &|value| self.moved(value, widths));
                     }
@@ -215,8 +216,8 @@ fn middle(item: &Item, spread: bool) -> Option<(String, f64)> {
         let first = values.as_array().and_then(|list| list.get(0)).unwrap_or(values);
         return Some((String::new(), number_of(first)?));
     }
-    let keys: &[&str] = if spread { &SPREADS } else { &MIDDLES };
-    keys.iter().find_map(|key| Some((format!(".{key}"), number(key)?)))
+    let mut keys = DistributionKey::names(if spread { SPREAD } else { MIDDLE });
+    keys.find_map(|key| Some((format!(".{key}"), number(key)?)))
 }
 
 /// A number, or the length of a vector.

@@ -35,6 +35,7 @@ pub(crate) use tally::away_from_edges;
 
 use crate::dataset::Experiment;
 use crate::simulate::SimulationError;
+use nearwall::effect::CurveInput;
 use nearwall::model::Model;
 
 /// Why a model cannot predict what a rig measures.
@@ -103,6 +104,7 @@ pub trait Forward: Sync {
         Vec::new()
     }
 
-    /// The value of an input over the first impacts of an experiment, with weights [input's unit, 1].
-    fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)>;
+    /// The value of an input or group over the first impacts of an experiment under its base model, NaN where it has
+    /// none, with weights [input's unit, 1].
+    fn input_values(&self, experiment: usize, input: CurveInput) -> Vec<(f64, f64)>;
 }

@@ -31,7 +31,7 @@ use super::tally::{PredictedReading, Tally};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigQuantity, RigReading};
 use crate::results::openfoam::impact_history;
-use nearwall::impact::INPUTS;
+use nearwall::effect::CurveInput;
 use nearwall::model::Model;
 
 /// Recorded impacts of all experiments, decided again for each law.
@@ -273,14 +273,11 @@ impl Forward for ReplayedRig {
         1
     }
 
-    fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
-        let Some(input) = INPUTS.get(input) else { return Vec::new() };
+    fn input_values(&self, experiment: usize, input: CurveInput) -> Vec<(f64, f64)> {
         let run = &self.runs[experiment];
         let first = |parcel: &Parcel| {
             let one = run.impacts.get(parcel.impacts.start)?;
-            // With what the model file puts on the wall.
-            let impact = self.base.met(one.wall, &one.impact).ok()?;
-            Some(((input.value)(&impact), parcel.particles))
+            Some((self.base.group_value(one.wall, &one.impact, input).ok()?, parcel.particles))
         };
         run.parcels.iter().filter_map(first).collect()
     }
@@ -378,7 +375,7 @@ mod tests {
         let base = replayed.predict(0, &Model::clone).unwrap();
         assert!((base[0].value - 0.5 * (3.0 + 2.0 + 2.0) / 5.0).abs() < 1e-9);
         assert_eq!(base[0].particles, 4.0);
-        let temperature = INPUTS.iter().position(|input| input.name == "T_p").unwrap();
+        let temperature = CurveInput::named("T_p", &replayed.base.declared()).unwrap();
         assert_eq!(replayed.input_values(0, temperature), vec![(350.0, 1.0); 3]);
     }
 

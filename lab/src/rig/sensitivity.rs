@@ -13,8 +13,9 @@ use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
+use super::case_number::SPREAD;
 use super::case_text::{CaseText, change_value};
-use crate::simulate::number_of;
+use crate::simulate::{DistributionKey, number_of};
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
 use nearwall::slag::ash_fusion;
@@ -62,8 +63,6 @@ const NOT_MOVED: [&str; 22] = [
     "at",
     "T",
 ];
-/// Keys of a distribution that bound it.
-const BOUNDS: [&str; 2] = ["min", "max"];
 /// Times that a range is halved before a number is given up.
 const RANGE_HALVINGS: usize = 6;
 
@@ -538,7 +537,7 @@ impl Finder {
             let outer = std::mem::replace(&mut self.source_of_table, source);
             for (name, item) in table.iter() {
                 let skipped = NOT_MOVED.contains(&name)
-                    || (spread && BOUNDS.contains(&name))
+                    || (spread && DistributionKey::of(name) == Some(DistributionKey::Bound))
                     || (of_materials && !self.used.iter().any(|used| used == name));
                 if !skipped {
                     self.item(item, &join(KeyStep::Key(name.to_owned())), &format!("{key}.{name}"));
@@ -656,10 +655,10 @@ fn kind_of(key: &str) -> QuantityKind {
         return nearwall::model::kind_of(path).unwrap_or(QuantityKind::Amount);
     }
     let of = |part: &&str| CASE_KINDS.iter().find(|(name, _)| name == part).map(|(_, kind)| *kind);
-    // The numbers of a distribution: its deviation is no temperature, of its angles only the mean is one.
+    // The numbers of a distribution: only its middle and its ends are temperatures or angles.
+    let is_spread = SPREAD.iter().any(|spread| DistributionKey::of(last) == Some(*spread));
     of(last).unwrap_or_else(|| match before.last().and_then(of) {
-        Some(QuantityKind::Temperature) if *last != "deviation" => QuantityKind::Temperature,
-        Some(QuantityKind::Angle) if *last == "mean" => QuantityKind::Angle,
+        Some(kind @ (QuantityKind::Temperature | QuantityKind::Angle)) if !is_spread => kind,
         _ => QuantityKind::Amount,
     })
 }

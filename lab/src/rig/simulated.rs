@@ -19,7 +19,7 @@ use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
 use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
-use nearwall::impact::INPUTS;
+use nearwall::effect::CurveInput;
 use nearwall::model::Model;
 
 /// An experiment with its case.
@@ -354,13 +354,9 @@ impl Forward for SimulatedRig<'_> {
         self.runs[experiment].changes.get(number).map(|known| known.at(widths)).unwrap_or_default()
     }
 
-    fn input_values(&self, experiment: usize, input: usize) -> Vec<(f64, f64)> {
+    fn input_values(&self, experiment: usize, input: CurveInput) -> Vec<(f64, f64)> {
         let Paths { rig, blocks, .. } = &self.runs[experiment];
-        let of = |particle: &PathTree<'_>| {
-            let impact = particle.impact(&rig.case.model)?;
-            let value = INPUTS.get(input).map(|input| (input.value)(&impact))?;
-            Some((value, particle.weight))
-        };
+        let of = |particle: &PathTree<'_>| Some((particle.input(&rig.case.model, input)?, particle.weight));
         blocks.iter().flatten().filter_map(of).collect()
     }
 }

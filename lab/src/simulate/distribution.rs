@@ -44,6 +44,43 @@ enum Family {
 
 const NAMES: [&str; 5] = ["fixed", "uniform", "normal", "lognormal", "rosin-rammler"];
 
+/// What a key of a distribution holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DistributionKey {
+    /// A middle, in the unit of the quantity.
+    Middle,
+    /// A standard deviation, in the unit of the quantity.
+    Deviation,
+    /// A spread without a unit.
+    Shape,
+    /// An end of the range, in the unit of the quantity.
+    Bound,
+}
+
+impl DistributionKey {
+    const ALL: [(&'static str, Self); 9] = [
+        ("value", Self::Middle),
+        ("mean", Self::Middle),
+        ("median", Self::Middle),
+        ("scale", Self::Middle),
+        ("deviation", Self::Deviation),
+        ("geometric_deviation", Self::Shape),
+        ("exponent", Self::Shape),
+        ("min", Self::Bound),
+        ("max", Self::Bound),
+    ];
+
+    /// What this key of a distribution holds; `None` for another key.
+    pub fn of(key: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(name, _)| *name == key).map(|(_, holds)| holds)
+    }
+
+    /// The keys that hold one of these.
+    pub fn names(which: &'static [Self]) -> impl Iterator<Item = &'static str> {
+        Self::ALL.into_iter().filter(|(_, holds)| which.contains(holds)).map(|(name, _)| name)
+    }
+}
+
 impl Distribution {
     /// Always the same number.
     pub fn fixed(value: f64) -> Self {

@@ -38,7 +38,7 @@ mod weighted;
 pub use case::{Case, SWEEP_KEYS, Sweep, SweepReference, sweep_unit};
 pub use conversion::{CarbonConversion, GAS_CONSTANT};
 pub use deposit_settings::DepositSettings;
-pub use distribution::Distribution;
+pub use distribution::{Distribution, DistributionKey};
 pub use error::SimulationError;
 pub use even_starts::even_starts;
 pub use flight::{FlightEnd, fly};

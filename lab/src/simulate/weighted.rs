@@ -22,6 +22,7 @@ use super::error::SimulationError;
 use super::near_wall::StayTimes;
 use super::tracker::{Start, Tracker, WallContact, impact_random};
 use super::trajectory::Fate;
+use nearwall::effect::CurveInput;
 use nearwall::impact::{Impact, ImpactError, Outcome};
 use nearwall::model::Model;
 use nearwall::rng::ImpactRng;
@@ -198,11 +199,12 @@ impl<'a> PathTree<'a> {
         first.0.as_ref()?.tracker.injection.model.as_ref()
     }
 
-    /// The impact of the first contact with a wall, with what the model file puts on that wall.
-    pub fn impact(&self, model: &Model) -> Option<Impact> {
+    /// An input or group of the first contact with a wall, with what the model file puts on that wall [its unit]; NaN
+    /// where it has no value.
+    pub fn input(&self, model: &Model, input: CurveInput) -> Option<f64> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
         let contact = &first.0.as_ref()?.contact;
-        model.met(contact.wall, &contact.impact).ok()
+        model.group_value(contact.wall, &contact.impact, input).ok()
     }
 }
 

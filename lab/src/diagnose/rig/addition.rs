@@ -1,31 +1,36 @@
 //! What a rig's data can add to the wall law: an effect, another value of a law's own number, a
-//! level or a curve over an input.
+//! level, or a curve or closed form over an input or group.
 
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value, value};
 
-use super::super::extend::{curve_effect, effect, list, with_effects};
+use super::super::closed_form::ClosedForm;
+use super::super::extend::{curve_effect, effect, form_effect, list, with_effects};
 use super::super::part::{FittedPart, Part, rounded};
 use super::super::record::Estimate;
 use super::super::search::SearchAxis;
+use super::form::RigForm;
+use super::inputs::Over;
 use crate::rig::{CaseNumber, FARTHEST};
-use nearwall::effect::{CurveAxis, CurveForm, CurveInput, CurveTarget, FittedCurve, Term};
-use nearwall::group::Declared;
-use nearwall::impact::INPUTS;
+use nearwall::effect::{CurveAxis, CurveTarget, FORMS, FittedCurve, Operation, Term};
 use nearwall::model::Model;
 
 /// Largest value of a curve or a level: of `e_n` and `e_t` as a share, of capture in log odds.
-const RESTITUTION_REACH: f64 = 0.8;
+pub(super) const RESTITUTION_REACH: f64 = 0.8;
 const CAPTURE_REACH: f64 = 7.0;
+/// Knots of a curve.
+const KNOTS: usize = 3;
 
 /// A kind of addition.
 #[derive(Debug, Clone)]
 pub(super) enum Kind {
     Part(Part),
-    /// A curve over one of [`INPUTS`], by place, with its knots; a level without any.
+    /// A curve over an input or group, with knots at the ends and the middle of its range; a level without any.
     Curve {
         on: CurveTarget,
-        over: Option<(usize, Vec<f64>)>,
+        over: Option<Over>,
     },
+    /// A closed form in the place of a curve.
+    Form(RigForm),
     /// Another value of a number of the case, by place; the parameter is its distance from the case's
     /// value in standard errors.
     Case {
@@ -53,16 +58,34 @@ impl RigAddition {
         Some(Self { kind: Kind::Part(part), at: vec![0.5; axes.len()], axes, intervals: Vec::new() })
     }
 
-    /// A curve over an input with these knots; a level without any.
-    pub fn curve(on: CurveTarget, over: Option<(usize, Vec<f64>)>) -> Self {
+    /// A curve over an input or group; a level without any.
+    pub fn curve(on: CurveTarget, over: Option<Over>) -> Self {
         let reach = if on == CurveTarget::Capture { CAPTURE_REACH } else { RESTITUTION_REACH };
-        let count = over.as_ref().map_or(1, |(_, knots)| knots.len());
+        let count = if over.is_some() { KNOTS } else { 1 };
         Self {
             kind: Kind::Curve { on, over },
             axes: vec![SearchAxis::linear(-reach, reach); count],
             at: vec![0.5; count],
             intervals: Vec::new(),
         }
+    }
+
+    /// A closed form at these coordinates.
+    pub fn form(form: RigForm, at: Vec<f64>) -> Self {
+        Self { axes: form.axes(), at, kind: Kind::Form(form), intervals: Vec::new() }
+    }
+
+    /// The closed forms that come near a curve or form of `e_n` or `e_t`; none of anything else.
+    pub fn closed_forms(&self) -> Vec<Self> {
+        let (on, over, factors) = match (&self.kind, self.fitted_curve()) {
+            (Kind::Curve { on, over: Some(over) }, Some(curve)) => (*on, over, factors_of(&curve)),
+            (Kind::Form(form), _) => (form.on, &form.over, form.factors(&self.values())),
+            _ => return Vec::new(),
+        };
+        if on == CurveTarget::Capture {
+            return Vec::new();
+        }
+        RigForm::near(on, over, &factors).into_iter().map(|(form, at)| Self::form(form, at)).collect()
     }
 
     /// A number of the case that is grossly wrong.
@@ -90,18 +113,47 @@ impl RigAddition {
     pub fn name(&self) -> String {
         match &self.kind {
             Kind::Part(part) => part.name(),
-            Kind::Curve { over: Some((input, _)), .. } => format!("unknown:{}", input_name(*input)),
+            Kind::Curve { over: Some(over), .. } | Kind::Form(RigForm { over, .. }) => {
+                format!("unknown:{}", over.name)
+            }
             Kind::Curve { on, over: None } => format!("level:{}", on.name()),
             Kind::Case { number, .. } => format!("case:{}", number.key),
         }
+    }
+
+    /// The id of the cause, and of curves that describe the same dependence.
+    pub fn names(&self) -> Vec<String> {
+        let others = self.over().into_iter().flat_map(|over| &over.overlapping);
+        std::iter::once(self.name()).chain(others.map(|name| format!("unknown:{name}"))).collect()
     }
 
     /// Tells it from all other additions: a curve over one input may act on several observables.
     pub fn key(&self) -> String {
         match &self.kind {
             Kind::Part(_) | Kind::Case { .. } => self.name(),
-            Kind::Curve { on, .. } => format!("{} on {}", self.name(), on.name()),
+            Kind::Curve { on, .. } | Kind::Form(RigForm { on, .. }) => {
+                format!("{} on {}", self.name(), on.name())
+            }
         }
+    }
+
+    /// The closed form that it is.
+    pub fn as_form(&self) -> Option<&RigForm> {
+        if let Kind::Form(form) = &self.kind { Some(form) } else { None }
+    }
+
+    /// The input or group of a curve or form.
+    pub fn over(&self) -> Option<&Over> {
+        match &self.kind {
+            Kind::Curve { over, .. } => over.as_ref(),
+            Kind::Form(form) => Some(&form.over),
+            Kind::Part(_) | Kind::Case { .. } => None,
+        }
+    }
+
+    /// Logarithm of the prior probability of its shape: closed forms share that of the free curve [nats].
+    pub fn shape_prior(&self) -> f64 {
+        if self.as_form().is_some() { -(FORMS.len() as f64).ln() } else { 0.0 }
     }
 
     /// The present value of a law's number in a model.
@@ -119,14 +171,17 @@ impl RigAddition {
     pub fn variables(&self) -> Vec<String> {
         match &self.kind {
             Kind::Part(part) => part.inputs().iter().map(|&input| input.to_owned()).collect(),
-            Kind::Curve { over, .. } => over.iter().map(|(input, _)| input_name(*input).to_owned()).collect(),
+            Kind::Curve { .. } | Kind::Form(_) => {
+                self.over().map(|over| over.name.clone()).into_iter().collect()
+            }
             Kind::Case { .. } => Vec::new(),
         }
     }
 
     /// The parameters in SI units; those without an axis have their defaults.
     pub fn values(&self) -> Vec<f64> {
-        self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect()
+        let values: Vec<f64> = self.axes.iter().zip(&self.at).map(|(axis, at)| axis.value(*at)).collect();
+        self.as_form().map_or(values.clone(), |form| form.parameters(&values))
     }
 
     /// A model with this addition.
@@ -143,8 +198,19 @@ impl RigAddition {
             Kind::Curve { .. } => {
                 self.fitted_curve().map_or(model.clone(), |curve| with_term(model, Term::fitted_curve(curve)))
             }
+            Kind::Form(form) => with_term(model, Term::fitted_form(form.fitted(self.values()))),
             Kind::Case { .. } => model.clone(),
         }
+    }
+
+    /// A closed form as the diagnosis of impacts has it.
+    pub fn closed_form(&self) -> Option<ClosedForm> {
+        Some(self.as_form()?.closed(self.values(), self.intervals.clone()))
+    }
+
+    /// The value of a closed form at a place of its input.
+    pub fn value_of_form(&self, at: f64) -> Option<f64> {
+        self.closed_form()?.value(at)
     }
 
     /// As the diagnosis of impacts has it; `None` for a curve.
@@ -156,10 +222,10 @@ impl RigAddition {
     /// The curve with its present heights.
     pub fn fitted_curve(&self) -> Option<FittedCurve> {
         let Kind::Curve { on, over } = &self.kind else { return None };
-        let form = if *on == CurveTarget::Capture { CurveForm::Add } else { CurveForm::Factor };
-        let axis = |(input, knots): &(usize, Vec<f64>)| CurveAxis {
-            input: CurveInput::Input(*input),
-            knots: knots.clone(),
+        let form = if *on == CurveTarget::Capture { Operation::Add } else { Operation::Factor };
+        let axis = |over: &Over| {
+            let [low, high] = over.seen;
+            CurveAxis { input: over.input, knots: vec![low, over.middle, high] }
         };
         Some(FittedCurve { on: *on, form, axes: over.iter().map(axis).collect(), values: self.values() })
     }
@@ -177,6 +243,10 @@ impl RigAddition {
                 let [low, high] = [low.min(high), low.max(high)];
                 vec![("value", Estimate { value, low, high, unit: number.unit })]
             }
+            Kind::Form(ref form) => self
+                .closed_form()
+                .map(|closed| closed.estimates(form.over.unit).collect())
+                .unwrap_or_default(),
             _ => Vec::new(),
         }
     }
@@ -195,16 +265,26 @@ impl RigAddition {
             }
             Kind::Curve { .. } => {
                 if let Some(curve) = self.fitted_curve() {
-                    added.push(curve_table(&curve, valid));
+                    added.push(curve_table(&curve, self.over(), valid));
                 }
+            }
+            Kind::Form(RigForm { on, over, .. }) => {
+                let table =
+                    |closed| form_effect(on.name(), (&over.name, over.unit), &closed, over.valid(valid));
+                added.extend(self.closed_form().map(table));
             }
             Kind::Case { .. } => {}
         }
     }
 }
 
-fn input_name(input: usize) -> &'static str {
-    INPUTS.get(input).map_or("?", |input| input.name)
+/// The factors of a curve at its knots and between them.
+fn factors_of(curve: &FittedCurve) -> Vec<[f64; 2]> {
+    let knots = curve.axes.iter().flat_map(|axis| &axis.knots).zip(&curve.values);
+    let mut factors: Vec<[f64; 2]> = knots.map(|(x, value)| [*x, 1.0 + value]).collect();
+    let between = |pair: &[[f64; 2]]| [0, 1].map(|i| 0.5 * (pair[0][i] + pair[1][i]));
+    factors.extend(factors.windows(2).map(between).collect::<Vec<_>>());
+    factors
 }
 
 fn with_term(model: &Model, term: Term) -> Model {
@@ -213,11 +293,12 @@ fn with_term(model: &Model, term: Term) -> Model {
     model.with_terms(terms)
 }
 
-fn curve_table(curve: &FittedCurve, valid: &InlineTable) -> Table {
-    let inputs: Vec<&str> = curve.axes.iter().map(|axis| axis.input.name(&Declared::default())).collect();
+fn curve_table(curve: &FittedCurve, over: Option<&Over>, valid: &InlineTable) -> Table {
+    let inputs: Vec<&str> = over.map(|over| over.name.as_str()).into_iter().collect();
     let knots: Vec<Value> = curve.axes.iter().map(|axis| list(&axis.knots)).collect();
     let on = [curve.on.name(), curve.form.name()];
-    curve_effect(on, &inputs, &knots, (&curve.values, 1), valid.clone())
+    let valid = over.map_or_else(|| valid.clone(), |over| over.valid(valid));
+    curve_effect(on, &inputs, &knots, (&curve.values, 1), valid)
 }
 
 /// The text of a model file with additions. `valid` are the ranges of the inputs of the fit.
@@ -240,6 +321,11 @@ pub(super) fn extended_text(
 /// What tells additions from others, in their order.
 pub(super) fn keys(additions: &[RigAddition]) -> Vec<String> {
     additions.iter().map(RigAddition::key).collect()
+}
+
+/// The same with the closed form of each: additions of which the coordinates mean the same.
+pub(super) fn shapes(additions: &[RigAddition]) -> Vec<(String, Option<&'static str>)> {
+    additions.iter().map(|one| (one.key(), one.as_form().map(RigForm::name))).collect()
 }
 
 /// A model with all of these.

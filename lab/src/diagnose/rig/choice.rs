@@ -3,6 +3,7 @@
 use super::super::constants::Effort;
 use super::super::explanation::{Explained as _, explore};
 use super::super::explanations::{Explanations, Told};
+use super::super::record::FormPoint;
 use super::addition::{RigAddition, keys};
 use super::rig_search::{RigExplanation, RigSearch};
 use super::significance::NullGains;
@@ -17,6 +18,8 @@ pub(super) struct Named {
     pub gain: f64,
     /// Corrected for all candidates.
     pub p_value: f64,
+    /// Of a closed form its values with a 95 % band, after the final fit.
+    pub line: Vec<FormPoint>,
 }
 
 /// What was chosen.
@@ -37,7 +40,7 @@ impl RigChoice {
         let search = RigSearch::new(study, &weights, effort.refitted, &[]);
         let visited = explore(&search, vec![search.start()], effort.expanded);
         let explanations = explanations(&search, &visited, &weights);
-        let named = explanations.named(|one| Some(one.name()));
+        let named = explanations.named(RigAddition::names);
         let best = explanations.best_additions().len();
         let named = if named.len() < best { study.fit(&named, &weights) } else { named };
         let mut choice = Self { explanations, named: Vec::new(), structure: [1.0; 2], visited };
@@ -63,7 +66,7 @@ impl RigChoice {
             let addition = rest.remove(place);
             let without = study.score(&study.fit(&rest, weights), weights);
             let gain = all - without - addition.axes.len() as f64;
-            self.named.push(Named { addition, gain, p_value: null.p_value(gain) });
+            self.named.push(Named { addition, gain, p_value: null.p_value(gain), line: Vec::new() });
         }
     }
 

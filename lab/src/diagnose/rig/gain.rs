@@ -9,7 +9,7 @@ use super::super::data_split::shuffled;
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
-use super::addition::{Kind, RigAddition, keys, moved};
+use super::addition::{Kind, RigAddition, moved, shapes};
 use super::choice::RigChoice;
 use super::noise::FittedScatter;
 use super::posterior::Posterior;
@@ -142,7 +142,7 @@ fn fitted_again(
     weights: &[f64],
 ) -> Vec<RigAddition> {
     let additions = whole.again(study, QUICK_RIG, weights);
-    let same = keys(&additions) == keys(&whole.additions());
+    let same = shapes(&additions) == shapes(&whole.additions());
     match posterior.best(study, weights).filter(|_| same) {
         Some(at) => moved(&additions, &at),
         None => study.fit(&additions, weights),

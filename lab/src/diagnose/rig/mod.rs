@@ -11,7 +11,9 @@ mod addition;
 mod blame;
 mod candidates;
 mod choice;
+mod form;
 mod gain;
+mod inputs;
 mod next;
 mod noise;
 mod places;
@@ -28,19 +30,16 @@ pub use blame::{Blame, BlamedNumber, Parties};
 pub use next::NextExperiment;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
 
-use toml_edit::InlineTable;
-
 use super::constants::THOROUGH_RIG;
-use super::extend::ranges;
 use super::first_reasons;
+use super::form_finding::places;
 use super::reach::Reach;
-use super::record::Options;
+use super::record::{FormPoint, Options};
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseNumber, CaseText, Forward, PredictionError};
 use addition::{RigAddition, extended_text, moved};
 use choice::{Named, RigChoice};
 use gain::HeldOutExperiments;
-use nearwall::impact::INPUTS;
 use posterior::Posterior;
 use study::RigStudy;
 
@@ -101,7 +100,7 @@ pub fn diagnose_rig(
     }
     let study = RigStudy::new(forward, options.seed, progress)?;
     let all = vec![1.0; study.data.experiments];
-    let valid = valid(forward);
+    let valid = study.inputs.valid();
     let write = |additions: &[RigAddition]| extended_text(model, additions, &valid).ok();
     let mut choice = RigChoice::new(&study, THOROUGH_RIG);
     let mut posterior = Posterior::new(&study, &choice.additions(), &all);
@@ -134,21 +133,29 @@ pub fn diagnose_rig(
     Ok(found.record(data, options)?)
 }
 
-/// The ranges of the inputs over the first impacts.
-fn valid(forward: &dyn Forward) -> InlineTable {
-    ranges(INPUTS.iter().filter_map(|input| Some((input.name, candidates::range(forward, input.name)?))))
-}
-
-/// Sets the parameters' intervals to those of the draws.
+/// Sets the parameters' intervals, and the bands of closed forms, to those of the draws.
 fn set_intervals(named: &mut [Named], posterior: &Posterior) {
-    let mut place = 0;
-    for Named { addition, .. } in named {
-        let mut intervals = Vec::new();
-        for (axis, at) in addition.axes.iter().zip(&addition.at) {
-            let [low, high] = posterior.interval(place).unwrap_or([*at, *at]);
-            intervals.push([axis.value(low.min(*at)), axis.value(high.max(*at))]);
-            place += 1;
-        }
+    let mut first = 0;
+    for Named { addition, line, .. } in named {
+        let own = first..first + addition.axes.len();
+        first = own.end;
+        let of = |number: &dyn Fn(&RigAddition) -> f64| {
+            let now = number(addition);
+            let drawn = posterior.interval(|at| number(&addition.moved(&at[own.clone()])));
+            let [low, high] = drawn.unwrap_or([now; 2]);
+            [low.min(now), high.max(now)]
+        };
+        let value =
+            |place: usize| move |one: &RigAddition| one.values().get(place).copied().unwrap_or(f64::NAN);
+        let intervals = (0..addition.values().len()).map(|place| of(&value(place))).collect();
+        let places = addition.as_form().map(|form| places(form.over.seen)).unwrap_or_default();
+        let value_at = |at: f64| move |one: &RigAddition| one.value_of_form(at).unwrap_or(f64::NAN);
+        let point = |at: f64| {
+            let [low, high] = of(&value_at(at));
+            let value = addition.value_of_form(at)?;
+            (low.is_finite() && high.is_finite()).then_some(FormPoint { at, value, low, high })
+        };
+        *line = places.into_iter().filter_map(point).collect();
         addition.intervals = intervals;
     }
 }

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 use super::super::explanations::FoundExplanation;
 use super::super::reach::Reach;
-use super::addition::{RigAddition, keys, moved};
+use super::addition::{RigAddition, moved, shapes};
 use super::choice::RigChoice;
 use super::noise::PreparedReadings;
 use super::posterior::Posterior;
@@ -435,7 +435,7 @@ fn causes(study: &RigStudy<'_>, choice: &RigChoice, posterior: &Posterior) -> Ve
     let surviving = choice.explanations.listed().len().clamp(2, MOST_SURVIVING);
     let cause = |one: &FoundExplanation<RigAddition>| {
         let own = &one.told.additions;
-        let states = match !drawn.is_empty() && keys(own) == keys(&additions) {
+        let states = match !drawn.is_empty() && shapes(own) == shapes(&additions) {
             true => std::iter::once(additions.clone())
                 .chain(drawn.iter().map(|at| moved(&additions, at)))
                 .collect(),
@@ -460,19 +460,20 @@ fn states(study: &RigStudy<'_>, fitted: &FittedRig, count: usize) -> Vec<Vec<Rig
     let places = table.candidates.iter().filter(|candidate| candidate.addition.key() == last.key());
     let all = vec![1.0; study.data.experiments];
     let score = |prepared: &PreparedReadings| study.data.score(prepared, study.data.values(), &all);
-    let scored = places.flat_map(|candidate| &candidate.places).filter_map(|place| {
+    let all_places = places.flat_map(|one| one.places.iter().map(|place| (&one.addition, place)));
+    let scored = all_places.filter_map(|(addition, place)| {
         let shifted = own.as_ref()?.shifted(&table.base_prepared, &place.prepared);
-        Some((score(&shifted), place.at.as_slice()))
+        Some((score(&shifted), addition.moved(&place.at)))
     });
-    let scored: Vec<(f64, &[f64])> = scored.chain([(score(&fitted.prepared), last.at.as_slice())]).collect();
+    let scored: Vec<(f64, RigAddition)> = scored.chain([(score(&fitted.prepared), last.clone())]).collect();
     let best = scored.iter().map(|(score, _)| *score).fold(f64::NEG_INFINITY, f64::max);
     let total: f64 = scored.iter().map(|(score, _)| (score - best).exp()).sum();
     let step = total / (count - 1).max(1) as f64;
     let (mut sum, mut wanted) = (0.0, 0.5 * step);
-    for (score, at) in scored {
+    for (score, one) in scored {
         sum += (score - best).exp();
         while sum > wanted && states.len() < count {
-            states.push([before, &[last.moved(at)]].concat());
+            states.push([before, std::slice::from_ref(&one)].concat());
             wanted += step;
         }
     }

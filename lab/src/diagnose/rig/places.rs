@@ -36,6 +36,7 @@ impl RigAddition {
     pub fn places(&self, now: Option<f64>) -> Vec<Vec<f64>> {
         match (&self.kind, self.axes.first()) {
             (Kind::Curve { .. }, _) => curves(self.axes.len()),
+            (Kind::Form(form), _) => form.places(),
             (Kind::Case { .. }, Some(axis)) => {
                 CASE_CHANGES.map(|widths| vec![axis.coordinate(widths)]).to_vec()
             }

@@ -128,11 +128,11 @@ impl Posterior {
         (mean, covariance)
     }
 
-    /// The 95 % interval of a coordinate.
-    pub fn interval(&self, place: usize) -> Option<[f64; 2]> {
+    /// The 95 % interval of a number that follows from the coordinates.
+    pub fn interval(&self, number: impl Fn(&[f64]) -> f64) -> Option<[f64; 2]> {
         let total: f64 = self.weights.iter().sum();
         let mut sorted: Vec<(f64, f64)> =
-            self.at.iter().zip(&self.weights).map(|(at, weight)| (at[place], *weight)).collect();
+            self.at.iter().zip(&self.weights).map(|(at, weight)| (number(at), *weight)).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
         let quantile = |share: f64| {
             let mut below = 0.0;

@@ -11,6 +11,7 @@ use rayon::prelude::*;
 
 use super::addition::{RigAddition, apply_all};
 use super::candidates::candidates;
+use super::inputs::RigInputs;
 use super::noise::{Data, PreparedReadings, WeightedValues};
 use crate::rig::{Forward, PredictedReading, PredictionError, changed};
 
@@ -77,8 +78,8 @@ impl PredictionTable {
     /// are left out.
     pub fn new(
         forward: &dyn Forward,
-        data: &Data,
-        base: Vec<PredictedReading>,
+        inputs: &RigInputs,
+        (data, base): (&Data, Vec<PredictedReading>),
         progress: &(dyn Fn(&str) + Sync),
     ) -> Self {
         let of = |addition: RigAddition| {
@@ -95,7 +96,7 @@ impl PredictionTable {
             progress(&addition.name());
             (!places.is_empty()).then_some(TabledCandidate { addition, places })
         };
-        let candidates = candidates(forward, data).into_par_iter().filter_map(of).collect();
+        let candidates = candidates(forward, inputs, data).into_par_iter().filter_map(of).collect();
         let base_prepared = Arc::new(data.prepare(&base));
         Self { base, base_prepared, candidates }
     }

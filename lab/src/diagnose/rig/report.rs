@@ -3,20 +3,24 @@
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::super::closed_form::ClosedForm;
 use super::super::constants::REFUTED;
-use super::super::finding::sigma;
+use super::super::finding::{equation, group_words, sigma};
+use super::super::form_finding;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Calibration, CauseCurve, Diagnosis, Finding, Fit, FitTest, LargeMisfit, NotExamined, Options, Rows,
+    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, LargeMisfit,
+    NotExamined, Options, Rows,
 };
 use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::blame::{self, Blame, Parties};
-use super::candidates::range;
 use super::choice::{Named, RigChoice};
+use super::form::RigForm;
 use super::gain::{HeldOutExperiments, predict_file};
+use super::inputs::Over;
 use super::next::{NextExperiment, table};
 use super::noise::{FittedScatter, Noise};
 use super::prediction_table::predict;
@@ -167,8 +171,8 @@ impl RigFindings<'_> {
         let first = findings.first().map_or("", |finding| finding.observable);
         let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
         let nothing = choice.named.is_empty() && self.refuted.is_empty();
-        let range_of = |input: &str| range(study.forward, input);
-        let mut left_out = not_examined(study.forward.base(0), range_of, "over the impacts");
+        let range = |input: &str| study.inputs.range(input);
+        let mut left_out = not_examined(study.forward.base(0), range, "over the impacts");
         if study.forward.case_numbers().is_empty() {
             left_out.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
         }
@@ -263,7 +267,7 @@ impl RigFindings<'_> {
     }
 
     fn finding(&self, named: &Named) -> Result<Finding, PredictionError> {
-        let Named { addition, gain, p_value } = named;
+        let Named { addition, gain, p_value, line } = named;
         let (gain, p_value) = (*gain, *p_value);
         let explanations = &self.choice.explanations;
         let curve = addition.fitted_curve().map(|curve| CauseCurve {
@@ -286,7 +290,7 @@ impl RigFindings<'_> {
             probability: explanations.probability(&cause),
             certainty: explanations.certainty(&cause),
             lack_of_fit: None,
-            not_separable: Vec::new(),
+            not_separable: addition.over().map(together).into_iter().flatten().collect(),
             p_value,
             q_value: p_value,
             parameters: addition.estimates().into_iter().collect(),
@@ -294,7 +298,7 @@ impl RigFindings<'_> {
             indistinguishable_from: explanations.in_stead_of(&cause),
             measure_next: Vec::new(),
             curve,
-            forms: Vec::new(),
+            forms: form(addition, line).into_iter().collect(),
             surface: None,
             explanation: String::new(),
             cause,
@@ -387,13 +391,36 @@ fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
     )
 }
 
+/// What is said of a closed form.
+fn form(addition: &RigAddition, line: &[FormPoint]) -> Option<CauseForm> {
+    let form = addition.as_form()?;
+    let RigForm { over, tried, .. } = form;
+    let closed = ClosedForm { line: line.to_vec(), ..addition.closed_form()? };
+    let column = (over.name.as_str(), over.unit, Some(over.seen));
+    Some(form_finding::record(&closed, form.observable(), column, tried))
+}
+
+/// Which inputs and groups cannot be told from that of a curve, as a sentence.
+fn together(over: &Over) -> Option<String> {
+    let [one, others] = ["changes", "change"].map(|verb| format!("{verb} together with {}", over.name));
+    let (who, change) = match over.also.split_last()? {
+        (last, []) => (last.clone(), one),
+        (last, rest) => (format!("{} and {last}", rest.join(", ")), others),
+    };
+    Some(format!("In these experiments {who} {change}: a curve over one is a curve over the others."))
+}
+
 /// A finding in a few sentences.
 fn explain(finding: &Finding) -> String {
     let known = EFFECTS.iter().find(|effect| effect.id == finding.cause);
     let what = match (known, finding.cause.split_once(':')) {
         (Some(effect), _) => format!("{}: {}.", effect.id, effect.about),
         (None, Some(("unknown", input))) => {
-            format!("What the rig shows depends on {input} in a way that no effect of the library explains.")
+            let what = group_words(input).map_or_else(|| input.to_owned(), |group| format!("the {group}"));
+            let forms: String = finding.forms.iter().map(equation).collect();
+            format!(
+                "What the rig shows depends on {what} in a way that no effect of the library explains.{forms}"
+            )
         }
         (None, Some(("level", what))) => format!(
             "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a constant."
@@ -428,8 +455,9 @@ const RIG: Words = Words {
 /// The words where nothing is named.
 const NOTHING: Words = Words { subject: "simulation", ..RIG };
 
-/// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says.
-fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> String {
+/// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says. The case alone is at
+/// fault with the probability `alone`.
+fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> String) -> String {
     let (case, law): (Vec<Finding>, Vec<Finding>) =
         diagnosis.findings.iter().cloned().partition(|finding| finding.cause.starts_with("case:"));
     let numbers: Vec<String> = case
@@ -441,14 +469,14 @@ fn law_and_case(diagnosis: &Diagnosis, nothing: impl FnOnce() -> String) -> Stri
         .collect();
     let wrong = match numbers.as_slice() {
         [] => return found(diagnosis, &RIG, nothing),
-        [one] => format!("The case is at fault, not the wall: {one} is wrong by more than its error."),
-        several => format!("The case is at fault, not the wall: {} are wrong.", several.join(" and ")),
+        [one] => format!("{one} is wrong by more than its error."),
+        several => format!("{} are wrong by more than their errors.", several.join(" and ")),
     };
     if law.is_empty() && diagnosis.calibration.is_empty() {
-        return wrong;
+        return format!("The case is at fault, not the wall ({}): {wrong}", probability_words(alone));
     }
     let law = Diagnosis { findings: law, ..diagnosis.clone() };
-    wrong.replace(", not the wall", "") + " " + &found(&law, &RIG, String::new)
+    format!("The case is at fault: {wrong} {}", found(&law, &RIG, String::new))
 }
 
 /// The verdict: the result in a few sentences.
@@ -458,8 +486,8 @@ fn verdict(
     (parties, blame): (&Parties, &[Blame]),
 ) -> String {
     let seen = format!("{experiments} experiments with {readings} readings");
-    let mut text =
-        fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, || nothing_found(diagnosis, &NOTHING, &seen));
+    let nothing = || nothing_found(diagnosis, &NOTHING, &seen);
+    let mut text = fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, parties.case, nothing);
     let named: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
     text += &blame::sentences(parties, blame, &named);
     let left = &diagnosis.fit.extended;

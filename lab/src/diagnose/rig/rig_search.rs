@@ -7,6 +7,7 @@ use super::super::candidate::{Class, FURTHER};
 use super::super::explanation::{Evidence, Explained, Explanation, WINDOW};
 use super::super::part::Part;
 use super::addition::{Kind, RigAddition, keys};
+use super::form::RigForm;
 use super::noise::{Noise, PreparedReadings, WeightedValues};
 use super::prediction_table::{TabledCandidate, TabledPlace, predict};
 use super::study::RigStudy;
@@ -54,7 +55,10 @@ impl<'a> RigSearch<'a> {
     ) -> Self {
         let table = &study.table;
         let mut counts: BTreeMap<Class, usize> = BTreeMap::new();
-        table.candidates.iter().for_each(|one| *counts.entry(class(&one.addition)).or_default() += 1);
+        // A curve and a form over one input are one candidate.
+        let different: BTreeMap<String, Class> =
+            table.candidates.iter().map(|one| (one.addition.key(), class(&one.addition))).collect();
+        different.into_values().for_each(|class| *counts.entry(class).or_default() += 1);
         let readings = study.data.count(weights);
         let stated = study.data.readings.iter().all(|one| !matches!(one.noise, Noise::Shared { .. }));
         let base = study.data.score(&table.base_prepared, study.data.values(), weights);
@@ -82,9 +86,10 @@ impl<'a> RigSearch<'a> {
     fn prior(&self, others: usize, one: &RigAddition) -> f64 {
         let class = class(one);
         let over = one.variables();
-        let idle = over.iter().filter(|input| self.study.unchanged.contains(&input.as_str())).count();
+        let idle = self.study.inputs.unchanged().filter(|input| over.iter().any(|own| own == input)).count();
         let count = self.counts.get(&class).copied().unwrap_or(1);
-        class.log_prior(count) + idle as f64 * UNCHANGED.ln() + others as f64 * FURTHER.ln()
+        let shape = one.shape_prior();
+        class.log_prior(count) + idle as f64 * UNCHANGED.ln() + others as f64 * FURTHER.ln() + shape
     }
 
     /// The base model.
@@ -120,6 +125,29 @@ impl<'a> RigSearch<'a> {
         let fitted = self.explanation(self.study.fit(&new.fitted.additions, self.weights));
         (self.study.progress)(&new.keys.join(" and "));
         fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new)
+    }
+
+    /// The same with the closed form in the place of the last curve or form that has the most evidence, if it has more.
+    fn best_form(&self, one: RigExplanation) -> RigExplanation {
+        let additions = &one.fitted.additions;
+        let open =
+            additions.iter().map(RigAddition::closed_forms).enumerate().rfind(|(_, all)| !all.is_empty());
+        let Some((place, forms)) = open else { return one };
+        let with = |form: RigAddition| {
+            let mut additions = additions.clone();
+            additions[place] = form;
+            self.explanation(self.study.fit(&additions, self.weights))
+        };
+        let fitted: Vec<RigExplanation> = forms.into_iter().filter_map(with).collect();
+        let name = |one: &RigExplanation| one.fitted.additions[place].as_form().map_or("", RigForm::name);
+        let tried = fitted.iter().map(|one| (name(one), self.evidence.of(one))).collect::<Vec<_>>();
+        let all = fitted.into_iter().chain([one.clone()]);
+        let best = all.max_by(|a, b| self.evidence.of(a).total_cmp(&self.evidence.of(b)));
+        let mut best = best.unwrap_or(one);
+        if let Kind::Form(form) = &mut best.fitted.additions[place].kind {
+            form.tried = tried;
+        }
+        best
     }
 
     /// Whether an addition could pay for itself: predictions that equal all measured values gain more
@@ -160,7 +188,11 @@ impl Explained for RigSearch<'_> {
         let least = self.evidence.of(of) - WINDOW;
         let promising = all.iter().take_while(|new| self.evidence.of(new) > least).count();
         let rest = all.split_off(all.len().min(promising.max(LEAST_FITTED).min(self.refitted)));
-        let mut found: Vec<_> = all.into_iter().map(|new| self.refitted(new)).chain(rest).collect();
+        let fitted: Vec<RigExplanation> = all.into_iter().map(|new| self.refitted(new)).collect();
+        let best = fitted.iter().map(|one| self.evidence.of(one)).fold(f64::NEG_INFINITY, f64::max);
+        let is_open = |one: &RigExplanation| self.evidence.of(one) > best - WINDOW;
+        let formed = |one: RigExplanation| if is_open(&one) { self.best_form(one) } else { one };
+        let mut found: Vec<_> = fitted.into_iter().map(formed).chain(rest).collect();
         found.retain(|new| !new.fitted.additions.iter().any(RigAddition::at_bound));
         found
     }
@@ -187,8 +219,11 @@ fn class(addition: &RigAddition) -> Class {
     match &addition.kind {
         Kind::Part(Part::Effect(_)) => Class::Law,
         Kind::Part(Part::LawParameter(_)) => Class::Number,
-        Kind::Curve { over: None, .. } => Class::Level,
-        Kind::Curve { .. } => Class::Lawless,
+        Kind::Curve { .. } | Kind::Form(_) => match addition.over() {
+            None => Class::Level,
+            Some(over) if over.input.is_group() => Class::Group,
+            Some(_) => Class::Lawless,
+        },
         Kind::Case { .. } => Class::Case,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::super::search::descend;
 use super::addition::{RigAddition, moved};
-use super::candidates::unchanged_inputs;
+use super::inputs::RigInputs;
 use super::noise::{Data, PreparedReadings};
 use super::prediction_table::{PredictionTable, predict};
 use crate::rig::{Forward, PredictedReading, PredictionError};
@@ -20,8 +20,8 @@ pub(super) struct RigStudy<'a> {
     pub data: Data,
     pub seed: u64,
     pub progress: &'a (dyn Fn(&str) + Sync),
-    /// Inputs that vary over the impacts of an experiment, but not from one experiment to the other.
-    pub unchanged: Vec<&'static str>,
+    /// What varies over the impacts.
+    pub inputs: RigInputs,
     /// Predictions of the candidates beside the base model.
     pub table: PredictionTable,
 }
@@ -46,8 +46,9 @@ impl<'a> RigStudy<'a> {
             moved.push([data.prepare(&at(-LINEAR)?), data.prepare(&at(LINEAR)?)]);
         }
         data.set_case_errors(&prepared, &moved, LINEAR);
-        let table = PredictionTable::new(forward, &data, base, progress);
-        Ok(Self { forward, data, seed, progress, unchanged: unchanged_inputs(forward), table })
+        let inputs = RigInputs::new(forward);
+        let table = PredictionTable::new(forward, &inputs, (&data, base), progress);
+        Ok(Self { forward, data, seed, progress, inputs, table })
     }
 
     /// Log likelihood of the measured values with these additions [nats]; minus infinity where the

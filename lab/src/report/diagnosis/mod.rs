@@ -5,7 +5,7 @@ pub(super) mod cause;
 mod curve;
 mod data;
 pub(super) mod fit;
-mod form;
+pub(super) mod form;
 pub(super) mod gain;
 mod groups;
 mod misfit;

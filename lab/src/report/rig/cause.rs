@@ -3,7 +3,7 @@
 use super::super::chart::{Chart, Figure};
 use super::super::diagnosis::cause::{add_alternatives, parameters, resampled, significance};
 use super::super::diagnosis::plot::{Window, identifier};
-use super::super::diagnosis::{cause_title, rivals};
+use super::super::diagnosis::{cause_title, form, rivals};
 use super::super::format::listed;
 use super::super::page::Page;
 use crate::diagnose::{CauseCurve, Finding};
@@ -28,6 +28,7 @@ pub(super) fn add(page: &mut Page, finding: &Finding, place: usize) {
         page.text(sentence.replace('`', ""));
     }
     page.figures(finding.curve.as_ref().and_then(|curve| figure(finding, curve)));
+    page.figures(finding.forms.first().and_then(|form| form::alone(form, input(finding)?, unit(finding))));
     add_alternatives(page, finding);
     if !finding.indistinguishable_from.is_empty() {
         page.subheading("What these experiments do not exclude");
@@ -43,8 +44,7 @@ pub(super) fn add(page: &mut Page, finding: &Finding, place: usize) {
 
 /// The fitted curve; `None` where it is a shift by one number.
 fn figure(finding: &Finding, curve: &CauseCurve) -> Option<Figure> {
-    let input = finding.variables.first()?;
-    let unit = INPUTS.iter().find(|one| one.name == input).map_or("", |one| one.unit);
+    let (input, unit) = (input(finding)?, unit(finding));
     let points = curve.at.iter().zip(&curve.adds);
     let points: Vec<[f64; 2]> = points.filter_map(|(at, adds)| Some([at.parse().ok()?, *adds])).collect();
     let ([first, ..], [.., last]) = (points.as_slice(), points.as_slice()) else { return None };
@@ -64,4 +64,15 @@ fn figure(finding: &Finding, curve: &CauseCurve) -> Option<Figure> {
     );
     let chart = chart.line("fitted curve", &points).points("", &points);
     Some(chart.figure(&format!("curve-{}", identifier(&finding.cause)), &caption))
+}
+
+/// The input or group of a curve or form.
+fn input(finding: &Finding) -> Option<&str> {
+    finding.variables.first().map(String::as_str)
+}
+
+/// Its unit; groups have none.
+fn unit(finding: &Finding) -> &'static str {
+    let own = INPUTS.iter().find(|one| input(finding) == Some(one.name));
+    own.map_or("1", |one| one.unit)
 }

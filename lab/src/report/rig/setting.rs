@@ -3,6 +3,7 @@
 use super::super::diagnosis::axis::ColumnAxis;
 use crate::diagnose::rig::RigRow;
 use crate::diagnose::{Sample, SampleRow};
+use crate::simulate::DistributionKey;
 
 /// Fewest values of a setting that is an x axis; with fewer the experiments stand side by side.
 const LEAST_VALUES: usize = 3;
@@ -174,8 +175,10 @@ fn correlation(a: &[f64], b: &[f64]) -> f64 {
 fn unit(key: &str) -> &'static str {
     let mut parts: Vec<&str> = key.split('.').collect();
     // Keys of a distribution have the unit of their quantity.
-    if let [.., "mean" | "deviation" | "min" | "max" | "scale" | "median"] = parts[..] {
-        parts.pop();
+    match parts.last().and_then(|last| DistributionKey::of(last)) {
+        Some(DistributionKey::Shape) => return "1",
+        Some(_) => drop(parts.pop()),
+        None => {}
     }
     match parts.last().copied().unwrap_or("") {
         "temperature" | "onset" => "K",

@@ -99,20 +99,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
              The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
         page.table(table);
     }
-    page.heading("How this was computed");
-    page.text("Particles move alone in a prescribed, steady gas: drag of Schiller and Naumann, weight, convective heat of Ranz \
-         and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
-         particle touches a wall with its surface, half a diameter from its centre. The impact model decides each hit; \
-         its random draw depends only on seed, particle and hit number.");
-    if let Some(deposit) = &case.deposit {
-        page.text(format!(
-            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
-             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
-             temperature of the wall. deposit.csv has every wall, bin and time.",
-            number(deposit.duration),
-            deposit.steps
-        ));
-    }
+    add_method(&mut page, case);
     if left_out > 0 {
         page.note(format!(
             "impacts.csv contains all hits of the first particles (of each value of a sweep), at most {} rows; \
@@ -122,6 +109,34 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
     }
     page.foot(&format!("Seed {}, {} particles.", case.seed, case.count()));
     page.html()
+}
+
+/// What moves the particles, and how a deposit grows.
+fn add_method(page: &mut Page, case: &Case) {
+    page.heading("How this was computed");
+    let gas = &case.gas;
+    let also = [
+        (gas.turbulence.is_some(), ", a normalised Langevin walk for the turbulence"),
+        (gas.thermophoresis, ", thermophoresis"),
+        (gas.brownian, ", Brownian motion"),
+    ];
+    let also: String = also.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| *what).collect();
+    let without = if gas.turbulence.is_some() { "" } else { " There is no turbulence." };
+    page.text(format!(
+        "Particles move alone in a prescribed, steady gas that they do not act on: drag of Schiller and Naumann, weight{also}, \
+         convective heat of Ranz and Marshall, and the stated law of carbon conversion.{without} A particle touches a wall \
+         with its surface, half a diameter from its centre. The impact model decides each hit; its random draw depends \
+         only on seed, particle and hit number."
+    ));
+    if let Some(deposit) = &case.deposit {
+        page.text(format!(
+            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
+             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
+             temperature of the wall. deposit.csv has every wall, bin and time.",
+            number(deposit.duration),
+            deposit.steps
+        ));
+    }
 }
 
 /// The bands of the captures; `None` without drawn models.
@@ -232,7 +247,6 @@ impl<'a> RunComparison<'a> {
 
     fn add_to(&self, page: &mut Page) {
         page.verdict(verdict::lines(self));
-        page.contents();
         if let Some(words) = self.few_words() {
             page.text(words);
         }

@@ -3,6 +3,7 @@
 use super::{RunComparison, RunResults, WallModel, number, percent};
 use crate::results::{ByConversion, share, wilson};
 use nearwall::impact::Regime;
+use std::iter;
 
 /// Conversion below which carbon still covers the ash of captured char (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
@@ -32,13 +33,30 @@ pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
 pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
     if let [run] = comparison.runs {
         let sentences = [busiest(comparison, run), reason(comparison, run), certainty(comparison, run)];
-        return std::iter::once(single(comparison, run)).chain(sentences.into_iter().flatten()).collect();
+        return iter::once(single(comparison, run)).chain(sentences.into_iter().flatten()).collect();
     }
+    let mut lines = several(comparison);
+    let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
+    let raw: Vec<String> = comparison
+        .each()
+        .filter_map(|(label, run)| {
+            let share = percent(raw_share(&run.captured_by_conversion(&walls, comparison.time)?));
+            Some(format!("{share} of {label}"))
+        })
+        .collect();
+    if !raw.is_empty() {
+        lines.push(format!("Captured mass with a conversion below {RAW} at capture: {}.", raw.join(", ")));
+    }
+    lines
+}
+
+/// What several runs capture, in which regimes, and what stock models say beside them.
+fn several(comparison: &RunComparison<'_>) -> Vec<String> {
     let own = || comparison.each().filter(|(_, run)| run.is_ours());
-    let mut lines = Vec::new();
     let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
     let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
-    lines.push(format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", ")));
+    let mut lines =
+        vec![format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", "))];
     let regimes: Vec<String> = own()
         .filter_map(|(label, run)| {
             let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
@@ -54,17 +72,6 @@ pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
         .filter_map(|(label, run)| beside_stock(comparison, label, run))
         .collect();
     lines.extend([regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."));
-    let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
-    let raw: Vec<String> = comparison
-        .each()
-        .filter_map(|(label, run)| {
-            let share = percent(raw_share(&run.captured_by_conversion(&walls, comparison.time)?));
-            Some(format!("{share} of {label}"))
-        })
-        .collect();
-    if !raw.is_empty() {
-        lines.push(format!("Captured mass with a conversion below {RAW} at capture: {}.", raw.join(", ")));
-    }
     lines
 }
 
