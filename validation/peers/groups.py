@@ -246,8 +246,7 @@ Sets of `v_n`, `d`, `mu_p` and `e_n` = f(group): We, Re, Oh, Ca, K; power, expon
 and 300 rows, noise 0.02 and 0.06; {nulls} nulls; and 6 of `v_n/d`, which is in no list. Columns are
 right if exactly those of the law change the prediction of 1000 fresh rows when shuffled. The error
 is that against the law without noise, root mean square, divided by the noise; medians. Operon has
-three times the evaluations of above, and once the five groups as columns; PySINDY is thresholded
-least squares on cubics of the logarithms. PySR could not fetch Julia.
+three times the evaluations of above; PySINDY is thresholded least squares on cubics of the logarithms.
 
 {summary}
 

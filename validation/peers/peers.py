@@ -125,7 +125,7 @@ def families(results):
 
 PAGE = """# Peers: other regressions beside `nearwall diagnose`
 
-Written by two commands, not by CI, which also print more detail:
+Written by two commands, not by CI:
 
 ```sh
 NEARWALL_TEST_SEED={set_seed} NEARWALL_PLANTED_OUT=SETS cargo test --release --test planted_effects -- --ignored write_sets
@@ -137,18 +137,13 @@ validation/peers/run groups
 
 {date}; {count} sets; seed {seed} of the methods; {versions}.
 
-Each set is a CSV file and a base model without the planted effect. The last quarter of the rows is
-held out. On the others
-
-- `nearwall diagnose` runs as it is, and its `extended.toml` predicts the held-out rows;
-- Operon (genetic programming, formulas of up to 30 symbols) and a lasso on a library of terms
-  (powers, roots, logarithms, inverses, products, labels, each also times the base prediction)
-  regress what the base model leaves. Residuals beyond 6 robust deviations are pulled in.
-
-A regression claims something if it beats a constant by one standard error of its five-fold
-cross-validation. The most important column is the one whose shuffling raises the error most, for
-nearwall the columns of its first finding; right: an input of the planted effect. The error is the
-root mean square of the smaller 95 % of the held-out errors, divided by that of the base model.
+Each set is a CSV file and a base model without the planted effect; the last quarter of the rows is
+held out. Operon (genetic programming, formulas of up to 30 symbols) and a lasso on a library of terms
+(powers, roots, logarithms, inverses, products, labels, each also times the base prediction) regress
+what the base model leaves; `nearwall diagnose` runs as it is. A regression claims something if it
+beats a constant by one standard error of its five-fold cross-validation. The most important column is
+the one whose shuffling raises the error most, for nearwall those of its first finding. The error is
+the root mean square of the smaller 95 % of the held-out errors, divided by that of the base model.
 
 {summary}
 

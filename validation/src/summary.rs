@@ -42,12 +42,8 @@ fn misses(study: &SourceStudy) -> String {
     // Statements that differ for one reason stand together.
     let reasons: Vec<&str> = claims.iter().map(|claim| first_sentence(&claim.why)).collect();
     claims.sort_by_key(|claim| reasons.iter().position(|reason| *reason == first_sentence(&claim.why)));
-    let mut previous = "";
-    let mut differing = Vec::new();
-    for claim in claims {
-        differing.push(row(claim, previous));
-        previous = &claim.why;
-    }
+    let same = |a: &&Claim, b: &&Claim| first_sentence(&a.why) == first_sentence(&b.why);
+    let differing: Vec<_> = claims.chunk_by(same).map(row).collect();
     let open: Vec<_> =
         with(Verdict::Unchecked).map(|claim| format!("{} ({})", claim.what, claim.place)).collect();
     if differing.is_empty() && open.is_empty() {
@@ -61,13 +57,31 @@ fn misses(study: &SourceStudy) -> String {
     text
 }
 
-/// A statement that differs; `previous` is the reason in the row above.
-fn row(claim: &Claim, previous: &str) -> [String; 4] {
-    let reason = first_sentence(&claim.why);
-    let reason = if reason == first_sentence(previous) { "as above" } else { reason };
-    let fitted = if claim.basis == ClaimBasis::Fitted { " (fitted)" } else { "" };
-    let statement = format!("{}: {}", claim.place, claim.what);
-    [statement, claim.published.clone(), format!("{}{fitted}", claim.ours), reason.to_owned()]
+/// Statements that differ for one reason; what is said alike of several places stands once, and so does a place.
+fn row(claims: &[&Claim]) -> [String; 4] {
+    let mut statements: Vec<String> = Vec::new();
+    let mut previous = String::new();
+    for alike in claims.chunk_by(|a, b| a.what == b.what) {
+        let places = alike.iter().map(|claim| claim.place.as_str()).collect::<Vec<_>>().join(", ");
+        let what = &alike[0].what;
+        statements.push(if places == previous { what.clone() } else { format!("{places}: {what}") });
+        previous = places;
+    }
+    let ours = |claim: &&Claim| {
+        let fitted = if claim.basis == ClaimBasis::Fitted { " (fitted)" } else { "" };
+        format!("{}{fitted}", claim.ours)
+    };
+    let published = claims.iter().map(|claim| claim.published.clone()).collect();
+    let reason = first_sentence(&claims[0].why).to_owned();
+    [statements.join("; "), listed(published), listed(claims.iter().map(ours).collect()), reason]
+}
+
+/// One value of each statement, in their order, or the value that all have.
+fn listed(mut values: Vec<String>) -> String {
+    if values.iter().all(|value| *value == values[0]) {
+        values.truncate(1);
+    }
+    values.join("; ")
 }
 
 /// The text up to the first full stop before a capital letter or a quotation mark.

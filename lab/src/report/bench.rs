@@ -9,8 +9,11 @@ use crate::diagnose::benchmark::{
 /// Ranges of inputs that are shown.
 const RANGES: usize = 3;
 
+/// A set is shown unasked where its score is further below the level than this [nats].
+const NEAR_LEVEL: f64 = 0.1;
+
 /// The result as text; `chosen` are the entries whose sets are shown, each with its ranges of inputs: all sets, or
-/// those in which it is worse than the level.
+/// those in which it is clearly worse than the level.
 pub fn text(
     result: &BenchmarkResult,
     chosen: &[(&BenchmarkEntry, Vec<Shortfall>)],
@@ -46,7 +49,7 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> Str
     let mut sets: Vec<&SetMeasure> = entry.sets.iter().filter(of_kind).collect();
     sets.sort_by(|a, b| a.measure.gain.total_cmp(&b.measure.gain));
     let count = sets.len();
-    sets.retain(|set| all_sets || set.measure.gain < 0.0);
+    sets.retain(|set| all_sets || set.measure.gain < -NEAR_LEVEL);
     let row = |set: &&SetMeasure| {
         let [measured, predicted] = set.means.map(short);
         let label = if set.observable == "outcome" { "captured" } else { set.observable };
@@ -59,7 +62,7 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> Str
     let caption = format!("{}, the worst set first", entry.name);
     let mut text = Table::new(&caption, 3, &header, sets.iter().map(row).collect()).text();
     if sets.len() < count {
-        text += &format!("  better than the level in the {} others\n", count - sets.len());
+        text += &format!("  near the level or better in the {} others\n", count - sets.len());
     }
     for Shortfall { input, unit, range: [low, high], readings, gain } in ranges.iter().take(RANGES) {
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };

@@ -101,7 +101,7 @@ fn text() -> Vec<String> {
         format!(
             "The paper says of slag and of wax that the criteria of entrapment and over-layering are not \
              met, and does not write them down. The forms here are derived from surface energy, Stokes drag \
-             and a balance of fresh slag (`docs/physics.md`), so the claim is tested by criteria of the \
+             and a balance of fresh slag, so the claim is tested by criteria of the \
              same names, not by the same criteria. From the paper: tension, viscosity and density, {SPEED} \
              m/s, {:.0} to {:.0} µm. Assumed: contact angle, {SLAG_FLUX} kg/(m² s) of slag, {BURN} s to \
              burn off, char density.",
