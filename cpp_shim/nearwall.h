@@ -248,6 +248,11 @@ typedef struct nw_wall_heat {
   // Change of temperature [K] in the last round of the solver: above 1e-9 where conductivities and
   // temperatures did not come to agree.
   double disagreement;
+  // Temperature of what holds it behind the surface [K]: the coolant, or slag that melts or freezes.
+  double behind_temperature;
+  // Thermal resistance between there and the surface [m2 K/W]: the surface gives the difference of both
+  // temperatures over it.
+  double behind_resistance;
 } nw_wall_heat;
 
 // The deposit on a piece of wall, per wall area. `nw_deposit_init` makes a bare wall.
@@ -324,7 +329,7 @@ typedef struct nw_deposit_surroundings {
   double draw;
 } nw_deposit_surroundings;
 
-// Mass that a deposit lost in a time step.
+// Mass that a deposit lost in a time step, and the heat that crossed it.
 typedef struct nw_deposit_losses {
   // `sizeof(nw_deposit_losses)`.
   uint32_t struct_size;
@@ -332,6 +337,15 @@ typedef struct nw_deposit_losses {
   uint32_t reserved;
   // Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
   double mass[NW_PROCESSES];
+  // Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
+  // of the next two. 0, as they are, on a wall that is not cooled.
+  double heat_taken;
+  // Heat that went into the coolant [J/m2].
+  double heat_to_coolant;
+  // Heat that melting took [J/m2], negative where slag froze.
+  double heat_of_fusion;
+  // Thermal resistance of the deposit on a cooled wall at the start of the step [m2 K/W].
+  double deposit_resistance;
 } nw_deposit_losses;
 
 // The walk of the gas's fluctuating velocity along the path of a particle, and the gas at the particle's place.
@@ -411,6 +425,9 @@ typedef struct nw_walk {
 
 // The material of a layer of the deposit has no `thermal_conductivity` in the model file or the library.
 #define NW_NO_CONDUCTIVITY 11
+
+// The material of the particles has no `heat_capacity`, and the caller gives none.
+#define NW_NO_HEAT_CAPACITY 12
 
 // Non-sticky particle, non-sticky wall.
 #define NW_NSP_NSW 0
@@ -624,6 +641,20 @@ nw_status nw_deposit_heat(const struct nw_model *model,
                           const struct nw_wall_cooling *cooling,
                           struct nw_wall_heat *heat);
 
+// Computes the heat [J/kg] that a captured particle of this impact brings to the surface that it lands on: sensible
+// heat down to the temperature of that surface, and the heat of fusion where it was liquid and lands as a solid; less
+// that heat where it was solid and lands as melt. What lies on a wall has the temperature of the wall, so that this is
+// all that it brings. `heat_capacity` [J/(kg K)] is that of the particle, or 0 for that of the model's material;
+// `NW_NO_HEAT_CAPACITY` if that has none. The sum over what lands in a step, over area and duration, is a
+// `further_flux`.
+//
+// # Safety
+// `model` is a loaded model; `impact` begins with its `struct_size`; `heat` can be written.
+nw_status nw_heat_brought(const struct nw_model *model,
+                          const struct nw_impact *impact,
+                          double heat_capacity,
+                          double *heat);
+
 // Initialises a deposit: its size, wall 0, a bare wall.
 //
 // # Safety
@@ -765,7 +796,7 @@ nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 // Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
 // that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 // wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
-// receives the mass that each process took. Add the particles captured in the step first, with
+// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
 // `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 // finite, since a surface that is held at a temperature could give any heat.
 //

@@ -400,6 +400,11 @@ public:
         return nw_deposit_heat(raw_, &deposit, voidage, &cooling, &found);
     }
 
+    // Heat [J/kg] that a captured particle brings to the surface, with its heat capacity [J/(kg K)] or 0; no exceptions.
+    nw_status heat_brought(const nw_impact& impact, double heat_capacity, double& heat) const noexcept {
+        return nw_heat_brought(raw_, &impact, heat_capacity, &heat);
+    }
+
     // Advances a deposit by a step of a `duration` [s] and sets what each process took from it; no exceptions.
     nw_status advance(const nw_deposit_surroundings& surroundings, double duration, nw_deposit& deposit,
                       nw_deposit_losses& losses) const noexcept {

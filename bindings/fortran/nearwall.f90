@@ -41,6 +41,7 @@ module nearwall
   integer(c_int32_t), parameter :: NW_PANIC = 9
   integer(c_int32_t), parameter :: NW_UNKNOWN_INPUT = 10
   integer(c_int32_t), parameter :: NW_NO_CONDUCTIVITY = 11
+  integer(c_int32_t), parameter :: NW_NO_HEAT_CAPACITY = 12
   integer(c_int32_t), parameter :: NW_NSP_NSW = 0
   integer(c_int32_t), parameter :: NW_NSP_SW = 1
   integer(c_int32_t), parameter :: NW_SP_NSW = 2
@@ -142,6 +143,8 @@ module nearwall
     real(c_double) :: coolant_flux
     real(c_double) :: deposit_resistance
     real(c_double) :: disagreement
+    real(c_double) :: behind_temperature
+    real(c_double) :: behind_resistance
   end type nw_wall_heat
 
   type, bind(c) :: nw_deposit
@@ -187,6 +190,10 @@ module nearwall
     integer(c_int32_t) :: struct_size
     integer(c_int32_t) :: reserved
     real(c_double) :: mass(NW_PROCESSES)
+    real(c_double) :: heat_taken
+    real(c_double) :: heat_to_coolant
+    real(c_double) :: heat_of_fusion
+    real(c_double) :: deposit_resistance
   end type nw_deposit_losses
 
   type, bind(c) :: nw_walk
@@ -388,6 +395,15 @@ module nearwall
       type(nw_wall_heat), intent(inout) :: heat
       integer(c_int32_t) :: nw_deposit_heat
     end function nw_deposit_heat
+
+    function nw_heat_brought(model, impact, heat_capacity, heat) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      real(c_double), value :: heat_capacity
+      real(c_double), intent(inout) :: heat
+      integer(c_int32_t) :: nw_heat_brought
+    end function nw_heat_brought
 
     function nw_deposit_init(deposit) bind(c)
       import

@@ -1,6 +1,5 @@
 //! Everything around an impact: what laboratories measure, what rigs catch, and pages that show it.
-//! The command `nearwall` is one binary of this crate. Impacts themselves are decided by the
-//! library [`nearwall`], through its public functions.
+//! Impacts themselves are decided by the library [`nearwall`], through its public functions.
 //!
 //! # Modules, in the order in which data pass through them
 //! 1. [`dataset`] reads tables of measured impacts and of readings of a rig.
@@ -11,6 +10,7 @@
 //! 3. [`results`] reads what `simulate` and OpenFOAM wrote.
 //! 4. [`diagnose`] finds what a model lacks, from impacts or from readings of a rig.
 //! 5. [`report`] draws the pages.
+//! 6. [`command`] is the command `nearwall`, with all of the above.
 //!
 //! [`atomic_file`] writes results aside and moves them into place when they are whole.
 
@@ -18,6 +18,7 @@
 #![allow(rustdoc::broken_intra_doc_links)]
 
 pub mod atomic_file;
+pub mod command;
 pub mod dataset;
 pub mod diagnose;
 pub mod map;

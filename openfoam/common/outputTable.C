@@ -71,3 +71,30 @@ void Foam::nearWall::outputTable::write(const tableRow& row)
     *file_ << endl;
     requireWritten(file_->stdStream().good(), path_);
 }
+
+
+void Foam::nearWall::outputTable::archive(stateArchive& state)
+{
+    // No file, but on the master after the first row
+    long length = file_ ? long(file_->stdStream().tellp()) : -1;
+    state(length);
+    if (!state.saves()) cutTo(length);
+}
+
+
+void Foam::nearWall::outputTable::cutTo(const long length)
+{
+    if (!file_) return;
+
+    if (length < 0)
+    {
+        file_.reset();
+        rm(path_);
+        return;
+    }
+    errno = 0;
+    file_->stdStream().flush();
+    const bool isCut = truncate(path_.c_str(), length) == 0;
+    file_->stdStream().seekp(length);
+    requireWritten(isCut && file_->stdStream().good(), path_);
+}

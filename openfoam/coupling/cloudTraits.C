@@ -43,6 +43,47 @@ void Foam::nearWall::reportCarbon
 }
 
 
+void Foam::nearWall::checkReturning
+(
+    const dictionary& coeffs,
+    const bool hasComposition,
+    const bool stuckAreRemoved,
+    const bool oneModel
+)
+{
+    const dictionary& shed = coeffs.subDict("memory").subDict("shed");
+    const char* why = nullptr;
+    if (NEARWALL_EITHER(false, true))
+    {
+        why = "is for OpenFOAM.com's versions only.\n    Write parcels no;";
+    }
+    else if (hasComposition)
+    {
+        why =
+            "needs the composition of the deposit, which is not kept, and the"
+            " parcels of this cloud have one.\n    Write parcels no; or take a"
+            " thermo or kinematic cloud for what falls and flies inert.";
+    }
+    else if (!stuckAreRemoved)
+    {
+        why =
+            "would give back what the key 'stuck' keeps in the deposit cloud or"
+            " in the solver's.\n    Write stuck remove;";
+    }
+    else if (!oneModel)
+    {
+        why =
+            "gives back parcels of no injector, and each injector has a model of"
+            " its own.\n    Write parcels no; or remove the key 'injectors'.";
+    }
+    if (why)
+    {
+        FatalIOErrorInFunction(shed)
+            << "Key 'parcels' of memory, shed: it " << why << exit(FatalIOError);
+    }
+}
+
+
 void Foam::nearWall::refuseWallSpring(const dictionary& subModels)
 {
     const word collision(readOr<word>(subModels, "collisionModel", word("none")));

@@ -85,6 +85,19 @@ void Foam::nearWall::depositCloud::endStep()
 }
 
 
+void Foam::nearWall::depositCloud::archive(stateArchive& state)
+{
+    label n = size();
+    state(n);
+    state.require(n <= size());
+    label i = 0;
+    for (nearWallDepositParticle& p : *this)
+    {
+        if (i++ >= n) deleteParticle(p);
+    }
+}
+
+
 #ifdef OPENFOAM
 void Foam::nearWall::depositCloud::autoMap(const mapPolyMesh& mapper)
 {

@@ -207,15 +207,50 @@ void Foam::nearWall::depositFields::set
 }
 
 
+void Foam::nearWall::depositFields::setCoverage
+(
+    const label patchi,
+    const label facei
+)
+{
+    const bool hasSlag =
+        on(molten, patchi)[facei] + on(frozen, patchi)[facei] > 0;
+    const scalar outside = hasSlag ? 1 - on(enclosed, patchi)[facei] : 1;
+    on(coverage, patchi)[facei] =
+        -std::expm1(-on(cover, patchi)[facei]*outside);
+}
+
+
 void Foam::nearWall::depositFields::setCoverage(const label patchi)
 {
-    const scalarField& area = on(cover, patchi);
-    const scalarField slag(on(molten, patchi) + on(frozen, patchi));
-    const scalarField& below = on(enclosed, patchi);
-    scalarField& covered = on(coverage, patchi);
-    forAll(area, facei)
+    forAll(on(cover, patchi), facei) setCoverage(patchi, facei);
+}
+
+
+void Foam::nearWall::depositFields::spread
+(
+    const label patchi,
+    const scalarField& factor
+)
+{
+    for (const field f : {molten, frozen, powder, closed, layer, cover})
     {
-        const scalar outside = slag[facei] > 0 ? 1 - below[facei] : 1;
-        covered[facei] = -std::expm1(-area[facei]*outside);
+        if (fields_[f]) on(f, patchi) *= factor;
+    }
+    setCoverage(patchi);
+}
+
+
+void Foam::nearWall::depositFields::archive
+(
+    stateArchive& state,
+    const labelList& patches
+)
+{
+    for (label f = 0; f < nFields; ++f)
+    {
+        if (!fields_[f]) continue;
+
+        for (const label patchi : patches) state.values(on(field(f), patchi));
     }
 }

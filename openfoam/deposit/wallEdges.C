@@ -21,9 +21,9 @@ void Foam::nearWall::wallEdges::findEdges()
 }
 
 
-void Foam::nearWall::wallEdges::countFaces(const labelList& patches)
+void Foam::nearWall::wallEdges::countFaces()
 {
-    const labelHashSet isOwn(patches);
+    const labelHashSet isOwn(patches_);
 
     faces_.setSize(meshEdges_.size(), label(0));
     ownFaces_.setSize(meshEdges_.size(), label(0));
@@ -55,12 +55,12 @@ void Foam::nearWall::wallEdges::countFaces(const labelList& patches)
 }
 
 
-void Foam::nearWall::wallEdges::findSides(const labelList& patches)
+void Foam::nearWall::wallEdges::findSides()
 {
-    sides_.setSize(patches.size());
-    forAll(patches, i)
+    sides_.setSize(patches_.size());
+    forAll(patches_, i)
     {
-        const polyPatch& pp = patchesOf(mesh_)[patches[i]];
+        const polyPatch& pp = patchesOf(mesh_)[patches_[i]];
         sides_[i].setSize(pp.size());
         forAll(pp, facei)
         {
@@ -94,11 +94,12 @@ Foam::nearWall::wallEdges::wallEdges
     const labelList& patches
 )
 :
-    mesh_(mesh)
+    mesh_(mesh),
+    patches_(patches)
 {
     findEdges();
-    countFaces(patches);
-    findSides(patches);
+    countFaces();
+    findSides();
 }
 
 

@@ -3,7 +3,6 @@
 
 #include "wallMemory.H"
 #include "dictionaryChecks.H"
-#include "impactKey.H"
 #include "mathematicalConstants.H"
 #include "surfaceFields.H"
 #include "versionCompat.H"
@@ -80,6 +79,19 @@ scalar readAcceleration(const dictionary& dict)
 }
 
 
+//- The dictionary `shed`; empty without one
+dictionary readShed(const dictionary& dict)
+{
+    if (dict.found("shed") && !dict.isDict("shed"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Key 'shed' must be a dictionary, as in shed { parcels yes; }"
+            << exit(FatalIOError);
+    }
+    return dict.subOrEmptyDict("shed");
+}
+
+
 //- Patches for which the wall model decides; one at least
 labelList patchesWithModel(const dictionary& dict, const List<patchRule>& rules)
 {
@@ -128,6 +140,29 @@ bool takesMass(const nearwall::process& process)
     return !process.loss.empty();
 }
 
+
+//- Largest change of a deposit in one piece of an interval, as a share of it
+const scalar largestChange = 0.1;
+
+//- Change of a deposit as a share of it: of its mass, and of its thickness
+scalar changeOf
+(
+    const nw_deposit& before,
+    const nw_deposit& after,
+    const scalar voidage
+)
+{
+    const scalar mass = before.molten + before.frozen + before.powder;
+    const scalar thickness = before.solid/(1 - voidage);
+    const scalar moved = max
+    (
+        mag(after.powder - before.powder),
+        max(mag(after.molten - before.molten), mag(after.frozen - before.frozen))
+    );
+    const scalar closed = mag(after.closed - before.closed);
+    return max(moved/max(mass, VSMALL), closed/max(thickness, VSMALL));
+}
+
 } // End anonymous namespace
 
 
@@ -135,8 +170,8 @@ bool takesMass(const nearwall::process& process)
 class Foam::nearWall::wallMemory::patchSurroundings
 {
     const wallMemory& memory_;
+    const label i_;
     const vectorField& Sf_;
-    const vectorField& centres_;
 
     //- The gas; empty where no process takes mass from the wall
     scalarField density_;
@@ -145,12 +180,14 @@ class Foam::nearWall::wallMemory::patchSurroundings
 
 public:
 
-    patchSurroundings(const wallMemory& memory, const label patchi)
+    //- Of the i-th patch
+    patchSurroundings(const wallMemory& memory, const label i)
     :
         memory_(memory),
-        Sf_(memory.mesh_.Sf().boundaryField()[patchi]),
-        centres_(memory.mesh_.Cf().boundaryField()[patchi])
+        i_(i),
+        Sf_(memory.mesh_.Sf().boundaryField()[memory.patches_[i]])
     {
+        const label patchi = memory.patches_[i];
         if (!acts(*memory.model_, memory.rules_[patchi].wall, takesMass)) return;
 
         density_ = memory.shear_.density(patchi);
@@ -182,10 +219,7 @@ public:
         found.shear_down = stress_[facei] & down;
         found.shear_across = mag(stress_[facei] - found.shear_down*down);
 
-        // The place ranks the same on any ranks and after any restart
-        impactKey place;
-        place.add(centres_[facei], memory_.mesh_.bounds().mag());
-        found.draw = scalar(place.value() >> 11)/9007199254740992.0;
+        found.draw = memory_.places_.rank(i_, facei);
         return found;
     }
 };
@@ -225,20 +259,29 @@ Foam::nearWall::wallMemory::wallMemory
     patches_(patchesWithModel(dict, rules)),
     isThick_(patches_.size(), false),
     fields_(initialFields(cloudName, saved)),
+    interval_(dict, saved),
+    places_(mesh, patches_),
     balance_(mesh, patches_, fields_, saved, folder),
+    heat_(mesh, cloudName, cooledPatches(), saved.subOrEmptyDict("heat"), folder),
+    returning_
+    (
+        readShed(dict), mesh, cloudName, patches_, acceleration_,
+        saved.subOrEmptyDict("returned"), folder
+    ),
     resistance_(rules.size()),
     captured_(rules.size())
 {
-    refuseUnknownKeys(dict, wordList({"voidage", "film", "acceleration"}), "memory");
+    refuseUnknownKeys
+    (
+        dict,
+        wordList
+        ({
+            "voidage", "film", "acceleration", "interval", "intervalSteps", "shed"
+        }),
+        "memory"
+    );
     checkCooled();
-    for (const label patchi : patches_)
-    {
-        captured_[patchi].setSize
-        (
-            patchesOf(mesh)[patchi].size(), nearwall::make_deposit_source()
-        );
-        fields_.setCoverage(patchi);
-    }
+    for (const label patchi : patches_) fields_.setCoverage(patchi);
     if (readOr<Switch>(dict, "film", Switch(false)))
     {
         requireViscosity(dict, *model, rules, patches_);
@@ -247,6 +290,7 @@ Foam::nearWall::wallMemory::wallMemory
         film_.reset(new wallFilm(mesh, patches_, walls, model, gravity));
     }
     printSettings(voidage_, bool(film_), acceleration_);
+    interval_.report(Info);
     reportInitial();
     reportThick(Info);
 }
@@ -301,13 +345,14 @@ const Foam::nearWall::wallCooling* Foam::nearWall::wallMemory::condition
 }
 
 
-bool Foam::nearWall::wallMemory::anyCooled() const
+Foam::labelList Foam::nearWall::wallMemory::cooledPatches() const
 {
+    labelList found;
     for (const label patchi : patches_)
     {
-        if (cooled(patchi)) return true;
+        if (cooled(patchi)) found.append(patchi);
     }
-    return false;
+    return found;
 }
 
 
@@ -380,7 +425,7 @@ Foam::nearWall::depositFields Foam::nearWall::wallMemory::initialFields
 {
     depositFields fields
     (
-        mesh_, cloudName, voidage_, anyCooled(), anyProcess("resuspension")
+        mesh_, cloudName, voidage_, cooledPatches().size() > 0, anyProcess("resuspension")
     );
     fields.requireComplete
     (
@@ -492,7 +537,24 @@ Foam::dictionary Foam::nearWall::wallMemory::saved
 {
     dictionary dict(balance_.saved(totals));
     dict.add(keyType(word(fieldNames)), string(fields_.names()));
+    dict.add("heat", savedHeat_);
+    dict.add("returned", savedReturned_);
+    interval_.save(dict);
     return dict;
+}
+
+
+void Foam::nearWall::wallMemory::archive(stateArchive& state)
+{
+    fields_.archive(state, patches_);
+    state(interval_);
+    state(places_);
+    state(balance_);
+    state(heat_);
+    state(returning_);
+    state(resistance_);
+    state(largestRise_);
+    state(captured_);
 }
 
 
@@ -537,7 +599,10 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
 {
     if (e.mass <= 0) return;
 
-    const nw_status status = addToSource(e, captured_[e.patch][e.face]);
+    nw_deposit_source& sum =
+        captured_[e.patch].emplace(e.face, nearwall::make_deposit_source())
+       .first->second;
+    const nw_status status = addToSource(e, sum);
     if (status != NW_OK)
     {
         FatalErrorInFunction
@@ -547,6 +612,8 @@ void Foam::nearWall::wallMemory::addCaptured(const impactEvent& e)
             << " m) cannot be added to the deposit: "
             << nw_status_text(status) << exit(FatalError);
     }
+    returning_.addCaptured(e);
+    heat_.addCaptured(e, acceleration_);
 }
 
 
@@ -575,24 +642,25 @@ void Foam::nearWall::wallMemory::setTemperature(const label patchi)
 }
 
 
-nw_wall_heat Foam::nearWall::wallMemory::recordHeat
+void Foam::nearWall::wallMemory::noteHeat
 (
-    const nw_deposit& d,
     const label patchi,
     const label facei,
-    const nw_wall_cooling& cooling
+    const nw_wall_cooling& cooling,
+    const nw_deposit_losses& crossed,
+    const scalar duration
 )
 {
-    const nw_wall_heat found(heatUnder(d, patchi, cooling));
-    fields_.on(depositFields::heatFlux, patchi)[facei] = found.heat_flux;
-    fields_.on(depositFields::under, patchi)[facei] = found.wall_temperature;
+    const scalar toCoolant = crossed.heat_to_coolant/duration;
+    fields_.on(depositFields::heatFlux, patchi)[facei] = toCoolant;
+    fields_.on(depositFields::under, patchi)[facei] =
+        cooling.coolant_temperature + toCoolant*cooling.wall_resistance;
 
     scalar& resistance = resistance_[patchi][facei];
-    const scalar rise =
-        found.heat_flux*(found.deposit_resistance - resistance);
+    const scalar rise = toCoolant*(crossed.deposit_resistance - resistance);
     if (resistance >= 0) largestRise_ = max(largestRise_, mag(rise));
-    resistance = found.deposit_resistance;
-    return found;
+    resistance = crossed.deposit_resistance;
+    heat_.add(patchi, facei, cooling, crossed, duration);
 }
 
 
@@ -603,13 +671,95 @@ Foam::scalar Foam::nearWall::wallMemory::addCaptured
     const label facei
 )
 {
-    nw_deposit_source& captured = captured_[patchi][facei];
-    if (!captured.count) return 0;
+    const auto captured = captured_[patchi].find(facei);
+    if (captured == captured_[patchi].end()) return 0;
 
-    require(nearwall::add(captured, d), patchi, "grow");
-    const scalar mass = captured.molten + captured.powder;
-    nw_deposit_source_init(&captured);
-    return mass;
+    const nw_deposit_source& sum = captured->second;
+    require(nearwall::add(sum, d), patchi, "grow");
+    return sum.molten + sum.powder;
+}
+
+
+void Foam::nearWall::wallMemory::addCaptured(const label i)
+{
+    const label patchi = patches_[i];
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    scalar arrived = 0;
+    for (const auto& captured : captured_[patchi])
+    {
+        const label facei = captured.first;
+        nw_deposit d(deposit(patchi, facei));
+        arrived += addCaptured(d, patchi, facei)*area[facei];
+        fields_.set(patchi, facei, d);
+        fields_.setCoverage(patchi, facei);
+    }
+    balance_.add(i, wallBalance::arrived, arrived);
+}
+
+
+nw_deposit_losses Foam::nearWall::wallMemory::advance
+(
+    const nw_deposit_surroundings& around,
+    const nw_wall_cooling* const heating,
+    const scalar duration,
+    const label patchi,
+    nw_deposit& d
+) const
+{
+    const auto by = [&](const scalar time, nw_deposit& now)
+    {
+        nw_deposit_losses lost(nearwall::make_deposit_losses());
+        const nw_status status =
+            heating
+          ? model_->advance(around, *heating, time, now, lost)
+          : model_->advance(around, time, now, lost);
+        require(status, patchi, "advance");
+        return lost;
+    };
+
+    nw_deposit after(d);
+    nw_deposit_losses all(by(duration, after));
+    const scalar wanted = changeOf(d, after, voidage_)/largestChange;
+    const label pieces = label(min(scalar(interval_.steps()), ceil(wanted)));
+    if (pieces <= 1)
+    {
+        d = after;
+        return all;
+    }
+
+    all = nearwall::make_deposit_losses();
+    for (label piece = 0; piece < pieces; ++piece)
+    {
+        const nw_deposit_losses lost(by(duration/pieces, d));
+        for (label k = 0; k < NW_PROCESSES; ++k) all.mass[k] += lost.mass[k];
+        all.heat_taken += lost.heat_taken;
+        all.heat_to_coolant += lost.heat_to_coolant;
+        all.heat_of_fusion += lost.heat_of_fusion;
+        if (piece == 0) all.deposit_resistance = lost.deposit_resistance;
+    }
+    return all;
+}
+
+
+nw_deposit_losses Foam::nearWall::wallMemory::advanceFace
+(
+    const patchSurroundings& surroundings,
+    const label i,
+    const label facei,
+    nw_wall_cooling* const heating,
+    const scalar duration,
+    nw_deposit& d
+)
+{
+    const label patchi = patches_[i];
+    nw_deposit_surroundings around(surroundings.at(facei));
+    around.wall_temperature =
+        fields_.on(depositFields::temperature, patchi)[facei];
+    if (heating) heat_.heat(patchi, facei, *heating);
+    const nw_deposit_losses here(advance(around, heating, duration, patchi, d));
+    returning_.addLost(i, facei, here);
+    if (heating) noteHeat(patchi, facei, *heating, here, duration);
+    return here;
 }
 
 
@@ -618,50 +768,37 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     const label patchi = patches_[i];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
     const wallCooling* const cooling = cooled(patchi);
-    const List<nw_wall_cooling> held
-    (
-        cooling ? cooling->cooling() : List<nw_wall_cooling>()
-    );
-    const List<nw_wall_cooling> heating
-    (
-        cooling ? cooling->heating() : List<nw_wall_cooling>()
-    );
-    const scalarField& wallTemperature = fields_.on(depositFields::temperature, patchi);
-    const patchSurroundings surroundings(*this, patchi);
+    List<nw_wall_cooling> heating;
+    if (cooling)
+    {
+        heating = cooling->heating();
+        heat_.beginPatch(patchi, duration);
+    }
+    const patchSurroundings surroundings(*this, i);
 
     scalar arrived = 0;
     nw_deposit_losses lost(nearwall::make_deposit_losses());
-    nw_deposit_losses here(nearwall::make_deposit_losses());
     forAll(area, facei)
     {
-        nw_deposit d(deposit(patchi, facei));
-        const scalar captured = addCaptured(d, patchi, facei);
-        arrived += captured*area[facei];
+        const bool isHit = captured_[patchi].count(facei) > 0;
+        if (!cooling && !isHit && !fields_.holds(patchi, facei)) continue;
 
-        if (cooling)
-        {
-            recordHeat(d, patchi, facei, held[facei]);
-        }
+        nw_deposit d(deposit(patchi, facei));
+        arrived += addCaptured(d, patchi, facei)*area[facei];
         const scalar slag = d.molten + d.frozen;
-        if
-        (
-            slag > 0
-         || (d.powder > 0 && (cooling || surroundings.losesMass()))
-        )
+        if (cooling || slag > 0 || (d.powder > 0 && surroundings.losesMass()))
         {
-            nw_deposit_surroundings around(surroundings.at(facei));
-            around.wall_temperature = wallTemperature[facei];
-            const nw_status status =
-                cooling
-              ? model_->advance(around, heating[facei], duration, d, here)
-              : model_->advance(around, duration, d, here);
-            require(status, patchi, "advance");
+            nw_wall_cooling* const by = cooling ? &heating[facei] : nullptr;
+            const nw_deposit_losses here
+            (
+                advanceFace(surroundings, i, facei, by, duration, d)
+            );
             for (label k = 0; k < NW_PROCESSES; ++k)
             {
                 lost.mass[k] += here.mass[k]*area[facei];
             }
         }
-        else if (captured <= 0) continue;
+        else if (!isHit) continue;
 
         fields_.set(patchi, facei, d);
     }
@@ -671,31 +808,68 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
 }
 
 
+void Foam::nearWall::wallMemory::flow(const scalar duration)
+{
+    if (!film_) return;
+
+    const List<wallFilm::passage> passed(film_->flow(fields_, duration));
+    forAll(patches_, i)
+    {
+        balance_.add(i, wallBalance::drained, passed[i].drained);
+        balance_.add(i, wallBalance::fromOthers, passed[i].fromOthers);
+    }
+}
+
+
+void Foam::nearWall::wallMemory::follow()
+{
+    if (!mesh_.moving()) return;
+
+    const List<scalarField> factors(places_.follow());
+    forAll(patches_, i)
+    {
+        fields_.spread(patches_[i], factors[i]);
+        heat_.spread(patches_[i], factors[i]);
+        returning_.spread(patches_[i], factors[i]);
+    }
+    if (film_) film_->move();
+}
+
+
+void Foam::nearWall::wallMemory::collectHeat()
+{
+    // That of the last step, which ended with the present temperatures
+    const scalar before = acceleration_*mesh_.time().deltaT0Value();
+    for (const label patchi : patches_)
+    {
+        const wallCooling* const cooling = cooled(patchi);
+        if (cooling) heat_.collect(patchi, *cooling, before);
+    }
+}
+
+
 void Foam::nearWall::wallMemory::finishStep(const scalar duration)
 {
-    if (mesh_.changing())
-    {
-        FatalErrorInFunction
-            << "The mesh moves or changes, and walls cannot remember a deposit"
-            << " on such a mesh. Remove the key 'memory'." << exit(FatalError);
-    }
+    follow();
     for (const label patchi : patches_) setTemperature(patchi);
+    collectHeat();
 
-    // What was captured in this step flows in the next one. So a steady film is
-    // that of the flow alone.
-    if (film_)
+    interval_.add(duration);
+    if (interval_.isDue())
     {
-        const List<wallFilm::passage> passed
-        (
-            film_->flow(fields_, acceleration_*duration)
-        );
-        forAll(patches_, i)
-        {
-            balance_.add(i, wallBalance::drained, passed[i].drained);
-            balance_.add(i, wallBalance::fromOthers, passed[i].fromOthers);
-        }
+        // What was captured in this step flows in the next one. So a steady
+        // film is that of the flow alone.
+        const scalar ofDeposit = acceleration_*interval_.elapsed();
+        heat_.beginStep(interval_.elapsed());
+        flow(ofDeposit);
+        forAll(patches_, i) advance(i, ofDeposit);
+        interval_.begin();
     }
-    forAll(patches_, i) advance(i, acceleration_*duration);
+    else
+    {
+        forAll(patches_, i) addCaptured(i);
+    }
+    for (const label patchi : patches_) captured_[patchi].clear();
 }
 
 
@@ -714,4 +888,6 @@ void Foam::nearWall::wallMemory::report
         os, fields_, totals, largestRise_, isCooled, bool(film_), time, writeRow
     );
     largestRise_ = 0;
+    savedHeat_ = heat_.report(os, fields_, time, writeRow);
+    savedReturned_ = returning_.report(os, time, writeRow);
 }

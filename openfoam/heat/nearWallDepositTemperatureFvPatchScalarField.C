@@ -34,6 +34,11 @@ scalar readNumber(const dictionary& dict, const word& key)
 }
 
 
+//- Least resistance between the surface and a front below it [m2 K/W]: bare
+//  slag that melts has the temperature at which it does
+const scalar leastResistance = 1e-10;
+
+
 //- Refuse keys that this condition does not read; those behind `relaxation`
 //  are OpenFOAM's own, or what this condition writes
 void refuseOtherKeys(const dictionary& dict, const string& owner)
@@ -272,14 +277,44 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::thermo() const
 }
 
 
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::gasCoefficient() const
+{
+    return effectiveConductivity()*patch().deltaCoeffs();
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::fromGas() const
+{
+    return gasCoefficient()*(patchInternalField() - *this);
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::fromRadiation() const
+{
+    if (given_.qr != "none")
+    {
+        return tmp<scalarField>(new scalarField(radiated()));
+    }
+    const scalar sigma = constant::physicoChemical::sigma.value();
+    return
+        given_.emissivity*sigma
+       *(pow4(given_.surroundingsTemperature) - pow4(*this));
+}
+
+
 Foam::List<nw_wall_cooling>
-Foam::nearWallDepositTemperatureFvPatchScalarField::cooling() const
+Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
 {
     const label patchi = patch().index();
     const scalarField beside(nearWall::conductivityBeside(thermo(), patchi));
     const scalarField here(nearWall::conductivityOf(thermo(), patchi));
+    const scalarField conducted(gasCoefficient());
     const scalarField gas(patchInternalField());
     const scalarField& T = *this;
+    const scalar sigma = constant::physicoChemical::sigma.value();
     List<nw_wall_cooling> found(size());
     forAll(found, i)
     {
@@ -287,39 +322,18 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::cooling() const
         c = nearwall::make_wall_cooling();
         c.coolant_temperature = given_.Ta;
         c.wall_resistance = given_.resistance();
-        c.gas_temperature = T[i];
-        c.gas_coefficient = std::numeric_limits<double>::infinity();
+        c.gas_temperature = gas[i];
+        c.gas_coefficient = conducted[i];
+        c.emissivity = given_.emissivity;
+        c.irradiation = sigma*pow4(given_.surroundingsTemperature);
         c.gas_conductivity = beside[i];
         c.void_temperature = gas[i];
         c.other_conductivity = here[i];
         c.other_temperature = T[i];
     }
-    return found;
-}
-
-
-Foam::List<nw_wall_cooling>
-Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
-{
-    const scalarField conducted
-    (
-        effectiveConductivity()*patch().deltaCoeffs()
-    );
-    const scalarField gas(patchInternalField());
-    const scalar sigma = constant::physicoChemical::sigma.value();
-    List<nw_wall_cooling> found(cooling());
-    forAll(found, i)
-    {
-        nw_wall_cooling& c = found[i];
-        c.gas_temperature = gas[i];
-        c.gas_coefficient = conducted[i];
-        c.emissivity = given_.emissivity;
-        c.irradiation = sigma*pow4(given_.surroundingsTemperature);
-    }
     if (given_.qr != "none")
     {
         const scalarField& qr = radiated();
-        const scalarField& T = *this;
         const scalarField& then = radiating_.size() == size() ? radiating_ : T;
         forAll(found, i)
         {
@@ -334,10 +348,16 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
 }
 
 
-Foam::tmp<Foam::scalarField>
-Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
+Foam::nearWallDepositTemperatureFvPatchScalarField::behindSurface
+Foam::nearWallDepositTemperatureFvPatchScalarField::behind() const
 {
-    tmp<scalarField> found(new scalarField(size(), Zero));
+    behindSurface found
+    {
+        scalarField(size(), given_.Ta),
+        scalarField(size(), 1/given_.resistance()),
+        scalarField(size(), Zero),
+        scalarField(size(), Zero)
+    };
     const nearWall::wallMemory* const deposits = memory();
     if (!deposits)
     {
@@ -345,13 +365,16 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::depositResistance() const
         return found;
     }
 
-    const List<nw_wall_cooling> faces(cooling());
-    scalarField& resistance = found.ref();
-    forAll(resistance, facei)
+    const label patchi = patch().index();
+    const List<nw_wall_cooling> faces(heating());
+    found.landed = deposits->heatOfLanded().coefficient(patchi);
+    found.given = deposits->heatOfLanded().given(patchi);
+    forAll(faces, facei)
     {
-        resistance[facei] =
-            deposits->heat(patch().index(), facei, faces[facei])
-           .deposit_resistance;
+        const nw_wall_heat heat(deposits->heat(patchi, facei, faces[facei]));
+        found.temperature[facei] = heat.behind_temperature;
+        found.conductance[facei] =
+            1/max(heat.behind_resistance, leastResistance);
     }
     return found;
 }
@@ -466,10 +489,7 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
     if (updated()) return;
 
     const scalarField& T = *this;
-    const scalarField conducted
-    (
-        effectiveConductivity()*patch().deltaCoeffs()
-    );
+    const scalarField conducted(gasCoefficient());
     const bool hasModel = given_.qr != "none";
     scalarField qr(size(), Zero);
     if (hasModel)
@@ -477,18 +497,20 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::updateCoeffs()
         qr = radiated();
         noteRadiation(qr);
     }
-    const scalarField resistance(given_.resistance() + depositResistance());
+    const behindSurface inside(behind());
     const scalar sigma = constant::physicoChemical::sigma.value();
     const scalar around = given_.surroundingsTemperature;
     forAll(T, i)
     {
-        // Heat leaves by `given` - `taken` T: to the coolant, and by radiation
-        // about the present temperature
+        // Heat leaves by `given` - `taken` T: to what is behind the surface,
+        // and by radiation about the present temperature
         const scalar radiated =
             given_.emissivity*sigma*(sqr(T[i]) + sqr(around))
            *(T[i] + around);
-        scalar taken = 1/resistance[i] + radiated;
-        scalar given = given_.Ta/resistance[i] + radiated*around;
+        scalar taken = inside.conductance[i] + inside.landed[i] + radiated;
+        scalar given =
+            inside.temperature[i]*inside.conductance[i] + radiated*around
+          + inside.given[i];
         // The radiation model computed its flux at an earlier temperature. So
         // that an insulated surface does not overshoot, it loses more by the
         // slope of a black one in P1; this term vanishes once the temperature

@@ -109,7 +109,15 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     (
         nearWall::readOr<scalar>(coeffs(), "particleTemperature", 293.15)
     ),
-    carbon_(nearWall::readOr<word>(coeffs(), "carbon", word("C")))
+    carbon_(nearWall::readOr<word>(coeffs(), "carbon", word("C"))),
+    leavesHeat_
+    (
+        stuck_ != stuckTreatment::react
+     && (
+            nearWall::hasTemperature(static_cast<const parcelType*>(nullptr))
+         || coeffs().found("particleTemperature")
+        )
+    )
 {
     nearWall::warnOfCelsius(particleTemperature_, "particleTemperature");
     makeRunState();
@@ -117,6 +125,16 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
     {
         nearWall::refuseWallSpring(owner.subModelProperties());
         run_->expectContacts();
+    }
+    if (run_->memory && run_->memory->returnsParcels())
+    {
+        nearWall::checkReturning
+        (
+            coeffs(),
+            nearWall::hasComposition(static_cast<const fullCloudType*>(nullptr)),
+            stuck_ == stuckTreatment::remove,
+            models_.all().size() == 1
+        );
     }
     owner.functions().append
     (
@@ -182,6 +200,8 @@ Foam::nearWall::impactEvent Foam::nearWallInteraction<CloudType>::eventOf
     e.particles = p.nParticle();
     e.mass = p.nParticle()*p.mass();
     e.speed = sqrt(sqr(v.vn) + sqr(v.vt));
+    e.bringsHeat = leavesHeat_;
+    e.heatCapacity = nearWall::heatCapacity(p);
     const nearWall::impactSurroundings at
     {
         particleTemperature_,
@@ -480,6 +500,44 @@ void Foam::nearWallInteraction<CloudType>::stopStuckParcels()
 
 
 template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::returnParcels()
+{
+    fullCloudType* const cloud = solverCloud();
+    if (!run_->memory || !cloud) return;
+
+    const fvMesh& mesh = this->mesh();
+    const scalar step = mesh.time().deltaTValue();
+    for (const auto& back : run_->memory->takeReturned())
+    {
+        const fvPatch& patch = mesh.boundary()[back.patch];
+        const label celli = patch.faceCells()[back.face];
+
+        // Inside of the cell, so far from the face that it does not touch it
+        const point& face = patch.Cf()[back.face];
+        const vector inwards(mesh.C()[celli] - face);
+        const scalar part =
+            max(scalar(0.01), 0.5*back.diameter/max(mag(inwards), VSMALL));
+        const point at(face + min(part, scalar(1))*inwards);
+
+        const auto& U = this->owner().U().boundaryField()[back.patch];
+        parcelType* const p = nearWall::newParcel<parcelType>(mesh, at, celli);
+        cloud->setParcelThermoProperties(*p, step);
+        p->U() = U.fixesValue() ? U[back.face] : vector(Zero);
+        p->d() = back.diameter;
+        p->rho() = back.density;
+        p->nParticle() = back.mass/p->mass();
+        nearWall::setTemperature
+        (
+            *p, run_->memory->surfaceTemperature(back.patch, back.face)
+        );
+        cloud->checkParcelProperties(*p, step, false);
+        run_->balance.add(massBalance::stuckRemoved, -p->nParticle()*p->mass());
+        cloud->addParticle(p);
+    }
+}
+
+
+template<class CloudType>
 Foam::nearWall::massBalance::content
 Foam::nearWallInteraction<CloudType>::measure()
 {
@@ -516,6 +574,8 @@ void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
     run_->isSolving = false;
     stopStuckParcels();
     run_->deposit->endStep();
+    run_->finishWalls();
+    returnParcels();
 
     // A steady cloud forgets its parcels after each iteration
     massBalance::content content;

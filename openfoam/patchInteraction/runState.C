@@ -23,6 +23,7 @@ Foam::label Foam::nearWall::toldImpacts::due
 
 Foam::nearWall::runState::runState(const statisticsSource& source)
 :
+    rewindable(source.mesh, source.cloudName),
     mesh_(source.mesh),
     setup_(source),
     statisticsInterval_
@@ -100,6 +101,7 @@ void Foam::nearWall::runState::makeMemory
 void Foam::nearWall::runState::beginStep(const bool isSteady)
 {
     isSolving = true;
+    if (memory) memory->beginStep();
     recorder_.reserveIdentities();
     if (!isSteady) return;
 
@@ -231,7 +233,6 @@ void Foam::nearWall::runState::finishMemory
     if (!memory) return;
 
     const Time& time = mesh_.time();
-    memory->finishStep(time.deltaTValue());
     const List<scalarList> totals(memory->totals());
     memory->report(os, totals, time.value(), writeRow);
     if (time.writeTime()) memory->reportThick(os);
@@ -285,4 +286,24 @@ Foam::dictionary Foam::nearWall::runState::finishStep
     saved.add("statistics", distributions_.write());
     if (recorder_.on()) saved.add("record", recorder_.write(os));
     return saved;
+}
+
+
+void Foam::nearWall::runState::archive(stateArchive& state)
+{
+    state(totals_);
+    state(ranges_);
+    state(distributions_);
+    state(recorder_);
+    if (fields_) state(*fields_);
+    state(unusable_);
+    state(toldUnusable_);
+    state(unknownInjector_);
+    state(toldUnknown_);
+    state(carried_);
+    state(steps_);
+    state(balance);
+    state(stay);
+    state(*deposit);
+    if (memory) state(*memory);
 }

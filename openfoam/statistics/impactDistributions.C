@@ -409,3 +409,26 @@ Foam::dictionary Foam::nearWall::impactDistributions::write()
     }
     return saved();
 }
+
+
+void Foam::nearWall::impactDistributions::archive(stateArchive& state)
+{
+    // What was put back lies elsewhere
+    latest_ = nullptr;
+    state(lastTime_);
+    state(oneSecond_);
+    state(series_);
+
+    // Tables that came since stay, without rows
+    std::size_t n = tables_.size();
+    state(n);
+    auto next = tables_.begin();
+    for (std::size_t i = 0; i < n; ++i, ++next)
+    {
+        std::string name(state.saves() ? next->first : std::string());
+        state(name);
+        for (; !state.saves() && next->first != name; ++next) next->second.clear();
+        next->second.archive(state);
+    }
+    for (; next != tables_.end(); ++next) next->second.clear();
+}

@@ -18,6 +18,8 @@
 #include <limits>
 #include <tuple>
 
+#include <unistd.h>
+
 namespace
 {
 
@@ -479,4 +481,33 @@ Foam::dictionary Foam::nearWall::impactRecorder::write(Ostream& os)
     dict.add(keyType("start"), string(file_.path().name()));
     dict.add(keyType("identities"), identities());
     return dict;
+}
+
+
+void Foam::nearWall::impactRecorder::archive(stateArchive& state)
+{
+    if (!on()) return;
+
+    scalar time = mesh_.time().value() + 1e-3*mesh_.time().deltaTValue();
+    long length = opened_ ? long(fileSize(file_)) : -1;
+    const label levelNow = fileLevel_;
+    state(time);
+    state(length);
+    state(seen_);
+    state(rows_);
+    state(level_);
+    state(opened_);
+    state(fileLevel_);
+    state(inFile_);
+    if (state.saves() || !opened_) return;
+
+    if (levelNow > fileLevel_)
+    {
+        // Rows that were thinned out do not come back
+        level_ = levelNow;
+        rewrite(file_, time);
+        return;
+    }
+    errno = 0;
+    requireWritten(truncate(file_.c_str(), length) == 0, file_);
 }

@@ -61,3 +61,19 @@ void Foam::nearWall::wallHitFields::add(const impactEvent& e)
         erodedDepth_->boundaryFieldRef()[e.patch][e.face] += e.eroded/area;
     }
 }
+
+
+void Foam::nearWall::wallHitFields::archive(stateArchive& state)
+{
+    for
+    (
+        volScalarField* const field :
+        {&depositedMass_, &hitCount_, &meanImpactSpeed_, erodedDepth_.get()}
+    )
+    {
+        if (!field) continue;
+
+        auto& patches = field->boundaryFieldRef();
+        forAll(patches, patchi) state.values(patches[patchi]);
+    }
+}

@@ -3,7 +3,10 @@
 
 use super::boundary::{guarded_status, initialise, reader, sized};
 use super::deposit::nw_deposit;
-use super::types::{NW_BAD_STATE, nw_model, nw_status, zero_by_default};
+use super::impact::nw_impact;
+use super::types::{
+    NW_BAD_STATE, NW_NO_HEAT_CAPACITY, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_status, zero_by_default,
+};
 use crate::deposit::VoidGas;
 use crate::deposit::conduction::{Coolant, HotSide};
 use crate::model::{WallCooling, WallHeat};
@@ -67,6 +70,11 @@ pub struct nw_wall_heat {
     /// Change of temperature [K] in the last round of the solver: above 1e-9 where conductivities and
     /// temperatures did not come to agree.
     pub disagreement: f64,
+    /// Temperature of what holds it behind the surface [K]: the coolant, or slag that melts or freezes.
+    pub behind_temperature: f64,
+    /// Thermal resistance between there and the surface [m2 K/W]: the surface gives the difference of both
+    /// temperatures over it.
+    pub behind_resistance: f64,
 }
 
 zero_by_default!(nw_wall_heat);
@@ -126,7 +134,12 @@ impl nw_wall_cooling {
 impl nw_wall_heat {
     fn with(self, heat: &WallHeat) -> Self {
         let WallHeat { surface_temperature, wall_temperature, heat_flux, coolant_flux, .. } = *heat;
-        let WallHeat { deposit_resistance, disagreement, .. } = *heat;
+        let WallHeat {
+            deposit_resistance,
+            disagreement,
+            behind: [behind_temperature, behind_resistance],
+            ..
+        } = *heat;
         Self {
             surface_temperature,
             wall_temperature,
@@ -134,6 +147,8 @@ impl nw_wall_heat {
             coolant_flux,
             deposit_resistance,
             disagreement,
+            behind_temperature,
+            behind_resistance,
             ..self
         }
     }
@@ -188,7 +203,8 @@ pub unsafe extern "C" fn nw_deposit_heat(
         let after = before.with(&model.inner().wall_heat(wall, &deposit, voidage, &cooling)?);
         // As `nw_deposit_advance` accepts them: an infinite resistance leaves no temperature below it.
         let found = [after.surface_temperature, after.wall_temperature];
-        let others = [after.heat_flux, after.coolant_flux, after.deposit_resistance];
+        let others =
+            [after.heat_flux, after.coolant_flux, after.deposit_resistance, after.behind_temperature];
         let others = others.into_iter().all(f64::is_finite);
         if !(found.into_iter().all(is_positive) && others) {
             return Err(NW_BAD_STATE);
@@ -198,4 +214,47 @@ pub unsafe extern "C" fn nw_deposit_heat(
         Ok(())
     };
     guarded_status(conduct)
+}
+
+/// Computes the heat [J/kg] that a captured particle of this impact brings to the surface that it lands on: sensible
+/// heat down to the temperature of that surface, and the heat of fusion where it was liquid and lands as a solid; less
+/// that heat where it was solid and lands as melt. What lies on a wall has the temperature of the wall, so that this is
+/// all that it brings. `heat_capacity` [J/(kg K)] is that of the particle, or 0 for that of the model's material;
+/// `NW_NO_HEAT_CAPACITY` if that has none. The sum over what lands in a step, over area and duration, is a
+/// `further_flux`.
+///
+/// # Safety
+/// `model` is a loaded model; `impact` begins with its `struct_size`; `heat` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_heat_brought(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    heat_capacity: f64,
+    heat: *mut f64,
+) -> nw_status {
+    let bring = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        if heat.is_null() {
+            return Err(NW_NULL_POINTER);
+        }
+        if impact.wall as usize >= model.inner().walls().len() {
+            return Err(NW_UNKNOWN_WALL);
+        }
+        let impact = impact.to_impact();
+        let temperatures = [impact.particle_temperature, impact.wall_temperature];
+        let is_sound = temperatures.into_iter().all(is_positive) && (0.0..=1.0).contains(&impact.conversion);
+        if !is_sound || !heat_capacity.is_finite() || heat_capacity < 0.0 {
+            return Err(NW_BAD_STATE);
+        }
+        let given = (heat_capacity > 0.0).then_some(heat_capacity);
+        let found = model.inner().heat_brought(&impact, given).ok_or(NW_NO_HEAT_CAPACITY)?;
+        if !found.is_finite() {
+            return Err(NW_BAD_STATE);
+        }
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { heat.write_unaligned(found) };
+        Ok(())
+    };
+    guarded_status(bring)
 }

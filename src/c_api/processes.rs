@@ -8,7 +8,7 @@ use super::boundary::{guarded_status, initialise, reader, sized};
 use super::cooled_wall::nw_wall_cooling;
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_status, zero_by_default};
-use crate::deposit::{PROCESS_COUNT, PROCESSES, Surroundings, WallCooling, WallGas};
+use crate::deposit::{PROCESS_COUNT, PROCESSES, StepHeat, Surroundings, WallCooling, WallGas};
 
 /// Number of processes that change a deposit.
 pub const NW_PROCESSES: usize = 4;
@@ -44,7 +44,7 @@ pub struct nw_deposit_surroundings {
     pub draw: f64,
 }
 
-/// Mass that a deposit lost in a time step.
+/// Mass that a deposit lost in a time step, and the heat that crossed it.
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
 pub struct nw_deposit_losses {
@@ -54,6 +54,15 @@ pub struct nw_deposit_losses {
     pub reserved: u32,
     /// Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
     pub mass: [f64; NW_PROCESSES],
+    /// Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
+    /// of the next two. 0, as they are, on a wall that is not cooled.
+    pub heat_taken: f64,
+    /// Heat that went into the coolant [J/m2].
+    pub heat_to_coolant: f64,
+    /// Heat that melting took [J/m2], negative where slag froze.
+    pub heat_of_fusion: f64,
+    /// Thermal resistance of the deposit on a cooled wall at the start of the step [m2 K/W].
+    pub deposit_resistance: f64,
 }
 
 zero_by_default!(nw_deposit_surroundings, nw_deposit_losses);
@@ -101,7 +110,7 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
 /// Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
 /// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 /// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
-/// receives the mass that each process took. Add the particles captured in the step first, with
+/// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
 /// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 /// finite, since a surface that is held at a temperature could give any heat.
 ///
@@ -132,15 +141,26 @@ pub unsafe extern "C" fn nw_deposit_advance(
         };
         let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
         let surroundings = surroundings.to_surroundings(cooling);
-        let (left, mass) = model.inner().advance(wall, &given, &surroundings, duration)?;
+        let (left, mass, heat) = model.inner().advance(wall, &given, &surroundings, duration)?;
         let after = before.with(&left).sound()?;
-        if !mass.iter().all(|mass| mass.is_finite()) {
+        let StepHeat { from_gas, to_coolant, fusion, deposit_resistance } = heat;
+        let numbers = [from_gas, to_coolant, fusion, deposit_resistance];
+        if !mass.iter().chain(&numbers).all(|number| number.is_finite()) {
             return Err(NW_BAD_STATE);
         }
+        let [heat_taken, heat_to_coolant, heat_of_fusion, deposit_resistance] = numbers;
+        let lost = nw_deposit_losses {
+            mass,
+            heat_taken,
+            heat_to_coolant,
+            heat_of_fusion,
+            deposit_resistance,
+            ..lost
+        };
         // SAFETY: both checked just above.
         unsafe {
             deposit.write_unaligned(after);
-            losses.write_unaligned(nw_deposit_losses { mass, ..lost });
+            losses.write_unaligned(lost);
         }
         Ok(())
     };

@@ -66,6 +66,8 @@ pub const NW_PANIC: nw_status = 9;
 pub const NW_UNKNOWN_INPUT: nw_status = 10;
 /// The material of a layer of the deposit has no `thermal_conductivity` in the model file or the library.
 pub const NW_NO_CONDUCTIVITY: nw_status = 11;
+/// The material of the particles has no `heat_capacity`, and the caller gives none.
+pub const NW_NO_HEAT_CAPACITY: nw_status = 12;
 
 /// The text of a status.
 pub(super) fn status_text(status: nw_status) -> &'static CStr {
@@ -88,6 +90,7 @@ pub(super) fn status_text(status: nw_status) -> &'static CStr {
         NW_NO_CONDUCTIVITY => {
             c"the material of the particle, its ash or the wall's slag has no thermal_conductivity; give it one"
         }
+        NW_NO_HEAT_CAPACITY => c"the material of the particles has no heat_capacity; give it one",
         _ => c"unknown status",
     }
 }

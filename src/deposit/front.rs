@@ -56,6 +56,9 @@ pub struct HeatFlow {
     pub from_gas: f64,
     /// Heat flux into the coolant [W/m²]; the rest melts slag.
     pub to_coolant: f64,
+    /// Temperature [K] of what holds it behind the surface, the coolant or a front that moves, and the
+    /// thermal resistance [m² K/W] in between.
+    pub behind: [f64; 2],
 }
 
 /// What a time step did to the layers.
@@ -67,8 +70,10 @@ pub struct FrontStep {
     pub from_gas: f64,
     /// Heat that went into the coolant [J/m²].
     pub to_coolant: f64,
-    /// Mass that melted [kg/m²]; negative where it froze. It took this mass times the heat of fusion.
+    /// Mass that melted [kg/m²]; negative where it froze.
     pub melted: f64,
+    /// Heat that melting took [J/m²], this mass times the heat of fusion.
+    pub fusion: f64,
 }
 
 impl HeatFlow {
@@ -120,7 +125,9 @@ impl ThermalLayers {
         let surface = steady.surface_temperature;
         let sides = [[inner, frozen], [frozen, molten], [molten, outer], [outer, surface]];
         let (from_gas, to_coolant) = (steady.heat_flux, steady.heat_flux);
-        Ok(HeatFlow { sides: Layers::from_outwards(sides), from_gas, to_coolant })
+        let resistance = self.inside(masses) + resistances[2] + resistances[3];
+        let behind = [self.coolant.temperature, resistance];
+        Ok(HeatFlow { sides: Layers::from_outwards(sides), from_gas, to_coolant, behind })
     }
 
     fn at_front(&self, masses: &Layers<f64>, front: f64) -> Result<HeatFlow, ConductionError> {
@@ -134,7 +141,12 @@ impl ThermalLayers {
             molten: [front, molten],
             outer_powder: [molten, molten + from_gas * of.outer_powder],
         };
-        Ok(HeatFlow { sides, from_gas, to_coolant })
+        Ok(HeatFlow { sides, from_gas, to_coolant, behind: [front, of.molten + of.outer_powder] })
+    }
+
+    /// Thermal resistance of all layers [m² K/W].
+    pub(crate) fn resistance(&self, masses: &Layers<f64>) -> f64 {
+        self.resistances(masses).outwards().iter().sum()
     }
 
     /// Thermal resistances [m² K/W].
@@ -190,7 +202,7 @@ impl ThermalLayers {
 
     /// [`Self::after`] where the front moves through what is slag or enclosed.
     fn moved(&self, masses: &Layers<f64>, duration: f64) -> Result<FrontStep, ConductionError> {
-        let still = FrontStep { masses: *masses, from_gas: 0.0, to_coolant: 0.0, melted: 0.0 };
+        let still = FrontStep { masses: *masses, from_gas: 0.0, to_coolant: 0.0, melted: 0.0, fusion: 0.0 };
         let Some(front) = self.slag_melts_at.filter(|_| duration > 0.0) else {
             return self.rest(still, duration);
         };
@@ -216,7 +228,7 @@ impl ThermalLayers {
         let from_gas = from_gas * time;
         // Without a resistance the coolant gives or takes all at once.
         let to_coolant = if to_coolant.is_finite() { to_coolant * time } else { from_gas - heat(melted) };
-        self.rest(FrontStep { masses, from_gas, to_coolant, melted }, duration - time)
+        self.rest(FrontStep { masses, from_gas, to_coolant, melted, fusion: heat(melted) }, duration - time)
     }
 
     /// A step with the heat of its steady rest [s].

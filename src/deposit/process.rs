@@ -181,6 +181,35 @@ pub enum DepositHeat {
     },
 }
 
+impl DepositHeat {
+    /// The heat that crossed the deposit, whose resistance was `resistance` [m² K/W] at the start.
+    pub(crate) fn crossed(&self, resistance: f64) -> StepHeat {
+        match self {
+            Self::Cooled { front: FrontStep { from_gas, to_coolant, fusion, .. }, .. } => StepHeat {
+                from_gas: *from_gas,
+                to_coolant: *to_coolant,
+                fusion: *fusion,
+                deposit_resistance: resistance,
+            },
+            _ => StepHeat::default(),
+        }
+    }
+}
+
+/// Heat that crossed the deposit on a cooled wall in a step: `from_gas = to_coolant + fusion`. Zeros on
+/// a wall that is not cooled.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct StepHeat {
+    /// What the surface took from gas, radiation and particles [J/m²].
+    pub from_gas: f64,
+    /// What went into the coolant [J/m²].
+    pub to_coolant: f64,
+    /// What melting took, negative where slag froze [J/m²].
+    pub fusion: f64,
+    /// Thermal resistance of the deposit at the start of the step [m² K/W].
+    pub deposit_resistance: f64,
+}
+
 /// A time step of a deposit.
 pub struct Step<'a> {
     /// The powder's material.

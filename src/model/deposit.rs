@@ -6,7 +6,8 @@ use super::wall_heat::WallHeatError;
 use crate::capture::{Stickiness, lowest};
 use crate::deposit::process::{DepositHeat, PowderMaterial, Step};
 use crate::deposit::{
-    CapturedParticles, Deposit, DepositSource, Losses, Surroundings, WallMelt, cover, layers, wetting,
+    CapturedParticles, Deposit, DepositSource, Losses, StepHeat, Surroundings, WallMelt, cover, layers,
+    wetting,
 };
 use crate::impact::{Impact, ImpactError};
 use crate::material::Material;
@@ -235,8 +236,9 @@ impl Model {
         }
     }
 
-    /// The deposit on a wall after a time step [s] in these surroundings, and the mass that each
-    /// process took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES).
+    /// The deposit on a wall after a time step [s] in these surroundings, the mass that each process
+    /// took from it [kg/m²], by the table [`PROCESSES`](crate::deposit::PROCESSES), and the heat that
+    /// crossed it.
     ///
     /// # Errors
     /// [`WallHeatError`] for surroundings or a duration without physical meaning, an unknown wall, or
@@ -247,13 +249,15 @@ impl Model {
         deposit: &Deposit,
         surroundings: &Surroundings,
         duration: f64,
-    ) -> Result<(Deposit, Losses), WallHeatError> {
+    ) -> Result<(Deposit, Losses, StepHeat), WallHeatError> {
         surroundings.check()?;
         at_least_zero("duration", duration)?;
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
+        let mut resistance = 0.0;
         let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
-            (Some(cooling), _) if deposit.mass() > 0.0 => {
+            (Some(cooling), _) => {
                 let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
+                resistance = thermal.resistance(&deposit.layers());
                 let front = thermal.after_flow(&deposit.layers(), &flow, duration)?;
                 DepositHeat::Cooled { flow, front }
             }
@@ -262,7 +266,9 @@ impl Model {
             },
             _ => DepositHeat::Unknown,
         };
-        Ok(of.processes.advance(deposit, &Step { powder: self, surroundings, heat, duration }))
+        let step = Step { powder: self, surroundings, heat, duration };
+        let (left, losses) = of.processes.advance(deposit, &step);
+        Ok((left, losses, heat.crossed(resistance)))
     }
 
     /// Whether the stickiness of the particles depends on their temperature.

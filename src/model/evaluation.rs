@@ -280,32 +280,36 @@ pub(super) fn evaluate<S: WallSteps>(
         state.chance = steps.draw();
     }
     if selected.contains(StepSet::REBOUND) {
-        let normal_restitution =
-            state.normal.restitution * (1.0 - steps.rebound_loss() * state.sticky.particle);
-        steps.trace("stickiness", "e_n", normal_restitution);
-        let kinematics = ImpactKinematics {
-            normal_speed: state.impact.normal_speed,
-            tangential_speed: state.impact.tangential_speed,
-            diameter: state.impact.diameter,
-            spin: state.impact.spin,
-            normal_restitution,
-            stiffness_ratio: state.contact.stiffness_ratio,
-        };
-        let rebound = steps.tangential_law(&kinematics);
-        let rebound = steps.tangential_effects(&kinematics, rebound);
-        let normal_restitution = steps.energy_bound(&kinematics, rebound);
-        (state.normal_restitution, state.rebound) =
-            steps.turn_back(&state.impact, normal_restitution, rebound);
-        // The probability is 1 if adhesion or a film holds the particle.
-        let by_stickiness = steps.capture_probability(&state.impact, state.sticky);
-        let probability = if state.normal.held { 1.0 } else { by_stickiness };
-        steps.trace("capture", "p_stick", probability);
-        let restitution = [state.normal_restitution, state.rebound.restitution];
-        let corrected = steps.correct(Corrected { restitution, probability });
-        state.outside_range |= steps.left_range();
-        [state.normal_restitution, state.rebound.restitution] = corrected.restitution;
-        state.probability = corrected.probability;
-        state.captured = (state.probability >= 1.0) | (state.chance < state.probability);
+        rebound(steps, state);
     }
     Ok(())
+}
+
+/// The step [`StepSet::REBOUND`]: restitution, probability of capture and decision.
+#[inline(always)]
+fn rebound<S: WallSteps>(steps: &mut S, state: &mut ImpactState) {
+    let normal_restitution = state.normal.restitution * (1.0 - steps.rebound_loss() * state.sticky.particle);
+    steps.trace("stickiness", "e_n", normal_restitution);
+    let kinematics = ImpactKinematics {
+        normal_speed: state.impact.normal_speed,
+        tangential_speed: state.impact.tangential_speed,
+        diameter: state.impact.diameter,
+        spin: state.impact.spin,
+        normal_restitution,
+        stiffness_ratio: state.contact.stiffness_ratio,
+    };
+    let rebound = steps.tangential_law(&kinematics);
+    let rebound = steps.tangential_effects(&kinematics, rebound);
+    let normal_restitution = steps.energy_bound(&kinematics, rebound);
+    (state.normal_restitution, state.rebound) = steps.turn_back(&state.impact, normal_restitution, rebound);
+    // The probability is 1 if adhesion or a film holds the particle.
+    let by_stickiness = steps.capture_probability(&state.impact, state.sticky);
+    let probability = if state.normal.held { 1.0 } else { by_stickiness };
+    steps.trace("capture", "p_stick", probability);
+    let restitution = [state.normal_restitution, state.rebound.restitution];
+    let corrected = steps.correct(Corrected { restitution, probability });
+    state.outside_range |= steps.left_range();
+    [state.normal_restitution, state.rebound.restitution] = corrected.restitution;
+    state.probability = corrected.probability;
+    state.captured = (state.probability >= 1.0) | (state.chance < state.probability);
 }

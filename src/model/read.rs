@@ -39,6 +39,29 @@ const MODEL_TABLES: [&str; 11] = [
     "fitted",
 ];
 
+/// The built-in materials with those of the file.
+fn read_materials(top: &Section<'_>) -> Result<Library, InputError> {
+    let library = Library::built_in()?;
+    let Some(own) = top.section("materials")? else { return Ok(library) };
+    let library = library.with(&own)?;
+    own.finish()?;
+    Ok(library)
+}
+
+/// The particle, and its stickiness where the criterion knows it.
+fn read_particle(
+    section: &Section<'_>,
+    library: &Library,
+    capture: &Capture,
+) -> Result<(Particle, Option<Arc<dyn StickinessCriterion>>), InputError> {
+    let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
+    let particle = Particle { material, ash: library.named_by(section, "ash")? };
+    let of_particle = |criterion: Criterion| criterion.of_particle(particle.melting());
+    let stickiness = capture.criterion.map(of_particle).transpose();
+    let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
+    Ok((particle, stickiness))
+}
+
 impl Model {
     pub(super) fn read(document: &Document) -> Result<Self, InputError> {
         document.read(Self::read_section)
@@ -54,19 +77,10 @@ impl Model {
             top.has(key);
         }
         top.finish()?;
-        let mut library = Library::built_in()?;
-        if let Some(own) = top.section("materials")? {
-            library = library.with(&own)?;
-            own.finish()?;
-        }
+        let library = read_materials(top)?;
         let capture = optional(top, "capture", Capture::read)?.unwrap_or_default();
         let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
-            let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
-            let particle = Particle { material, ash: library.named_by(section, "ash")? };
-            let of_particle = |criterion: Criterion| criterion.of_particle(particle.melting());
-            let stickiness = capture.criterion.map(of_particle).transpose();
-            let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
-            Ok((particle, stickiness))
+            read_particle(section, &library, &capture)
         })?;
         let (normal, adhesion) = finished(top.required_section("normal")?, read_normal)?;
         let tangential = finished(top.required_section("tangential")?, TangentialLaw::read)?;
@@ -82,8 +96,10 @@ impl Model {
         let declared = Declared { inputs: &extra_inputs, products: &products };
         let terms =
             sections.iter().map(|section| Term::read(section, &declared)).collect::<Result<_, _>>()?;
-        if capture.criterion.is_some() && stickiness.is_none() && walls.iter().all(|w| w.melt.is_none()) {
-            let needs = capture.criterion.map_or("", Criterion::needs);
+        if let (Some(criterion), None) = (capture.criterion, &stickiness)
+            && walls.iter().all(|wall| wall.melt.is_none())
+        {
+            let needs = criterion.needs();
             let problem =
                 format!("neither the particle nor the slag of a wall has {needs}; give one to a material");
             return Err(top.fault("capture", problem));

@@ -41,6 +41,9 @@ pub struct WallHeat {
     pub coolant_flux: f64,
     /// Thermal resistance of the deposit [m² K/W].
     pub deposit_resistance: f64,
+    /// Temperature [K] of what holds it behind the surface, the coolant or a front that moves, and the
+    /// thermal resistance [m² K/W] in between.
+    pub behind: [f64; 2],
     /// Change of temperature [K] in the last round in which temperatures and conductivities were made to
     /// agree: at most 1e-9 where they do.
     pub disagreement: f64,
@@ -81,14 +84,14 @@ impl Model {
         cooling: &WallCooling,
     ) -> Result<WallHeat, WallHeatError> {
         let (thermal, flow, disagreement) = self.thermal_layers(wall, deposit, voidage, cooling)?;
-        let [masses, per_mass] = [deposit.layers(), thermal.resistance_per_mass].map(Layers::outwards);
         Ok(WallHeat {
             surface_temperature: flow.surface(),
             wall_temperature: flow.wall(),
             sides: flow.sides,
             heat_flux: flow.from_gas,
             coolant_flux: flow.to_coolant,
-            deposit_resistance: masses.iter().zip(per_mass).map(|(mass, per)| mass * per).sum(),
+            deposit_resistance: thermal.resistance(&deposit.layers()),
+            behind: flow.behind,
             disagreement,
         })
     }
@@ -144,10 +147,8 @@ impl Model {
             };
             let flow = thermal.flow(&masses)?;
             let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
-            let changes = means.iter().zip(found).zip(masses.outwards());
-            let changes =
-                changes.filter(|(_, mass)| *mass > 0.0).map(|((mean, found), _)| (found - mean).abs());
-            let disagreement = changes.fold(0.0, f64::max);
+            let lying = means.iter().zip(found).zip(masses.outwards()).filter(|(_, mass)| *mass > 0.0);
+            let disagreement = lying.map(|((mean, found), _)| (found - mean).abs()).fold(0.0, f64::max);
             round += 1;
             if disagreement <= AGREED || round == MOST_ROUNDS {
                 return Ok((thermal, flow, disagreement));
@@ -335,6 +336,8 @@ emissivity = 0.9
             }
             assert_relative_eq!(heat.surface_temperature, temperature, max_relative = 1e-9);
             assert_relative_eq!(COOLING.hot.heat_flux(temperature), flux, max_relative = 1e-9);
+            let [behind, resistance] = heat.behind;
+            assert_relative_eq!((temperature - behind) / resistance, flux, max_relative = 1e-9);
         }
     }
 

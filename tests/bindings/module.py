@@ -1,11 +1,13 @@
 """The Python module: its faults have the library's words, its arrays are the caller's own, its numbers agree with each other."""
 
 import sys
+import warnings
 
 import numpy
 
 import nearwall
 
+warnings.simplefilter("ignore")
 model = nearwall.Model.from_file(sys.argv[1])
 checks = 0
 
@@ -86,8 +88,25 @@ assert lost == {"resuspended": 0.0, "shed": 0.0} and model.wall_processes(0) == 
 assert bytes(deposit) == bytes(model.initial_deposit(0, 0.4)), "a model without a table of adhesion lost powder"
 refused(TypeError, lambda: model.add_captured(nearwall.DepositSource(), 1.0, 2300.0, 900.0, diameter=1e-4), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")
-refused(TypeError, lambda: model.resolve(v_n.astype(numpy.float32)), "v_n has to be a contiguous array: numpy.ascontiguousarray(v_n, numpy.float64)")
-refused(TypeError, lambda: model.resolve(v_n, d=numpy.full(2000, 5e-5)[::2]), "d has to be a contiguous array: numpy.ascontiguousarray(d, numpy.float64)")
+refused(TypeError, lambda: model.resolve(["fast"]), "v_n has to be of numbers: could not convert string to float: ")
+refused(ValueError, lambda: model.resolve([[1.0, 2.0]]), "v_n has shape (1, 2), there are 1 impacts")
+refused(TypeError, lambda: model.resolve(v_n, wall=numpy.zeros(1000)), "wall has to be of integers, not of float64")
+refused(ValueError, lambda: model.resolve(v_n[:2], wall=[0, -1]), "wall has to be between 0 and 2**32 - 1")
+refused(nearwall.Error, lambda: model.resolve(v_n, wall="roof"), "the model has no such wall")
+
+# Whatever holds the numbers: the same bits; one number beside many; walls by their names.
+whole = numpy.array([1.0, 2.0, 3.0])
+fixed = dict(d=5e-5, T_p=1300.0, T_w=1100.0)
+same = model.resolve(whole, **fixed)
+for given in ([1, 2, 3], (1.0, 2.0, 3.0), whole.astype("f4"), whole.astype(int), numpy.repeat(whole, 2)[::2]):
+    assert (model.resolve(given, **fixed).e_n == same.e_n).all(), type(given)
+assert (model.resolve(2.0, **{**fixed, "d": [5e-5, 5e-5]}).e_n == same.e_n[1]).all()
+assert (model.resolve(whole, wall=["default"] * 3, **fixed).e_n == same.e_n).all()
+assert model.speeds("default", **fixed) == model.speeds(0, **fixed) and set(same.regime) <= set(nearwall.REGIMES)
+with warnings.catch_warnings(record=True) as said:
+    warnings.simplefilter("always")
+    model.resolve(whole, d=5e-5)
+assert "assumed, in SI units: T_p = 293.15, conversion = 1, T_w = 293.15" in str(said[0].message), said
 refused(TypeError, lambda: model.resolve(v_n, key=3), "key has to be an array")
 refused(ValueError, lambda: model.resolve(v_n, wall=2**32), "wall has to be between 0 and 2**32 - 1")
 refused(ValueError, lambda: model.resolve(v_n, seed=-1), "seed has to be between 0 and 2**64 - 1")

@@ -295,8 +295,6 @@ fn faults_name_the_file_and_the_remedy() {
     let usage = |arguments: &[&str]| nearwall(at, arguments).status.code();
     assert_eq!(usage(&["compare", "lab.csv"]), Some(2));
     assert_eq!(usage(&["compare", "lab.csv", "--models", "right.toml"]), Some(2));
-    let rig = ["compare", "lab.csv", "--models", "right.toml", "twin.toml", "--case", "rig.toml"];
-    refused(at, &rig, &["--case rig.toml", "not supported yet", "leave out --case"]);
     let models = |a: &str, b: &str| refused(at, &["compare", "lab.csv", "--models", a, b], &[a]);
     models("absent.toml", "right.toml");
     refused(at, &["compare", "absent.csv", "--models", "right.toml", "twin.toml"], &["absent.csv"]);

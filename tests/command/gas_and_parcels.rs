@@ -179,7 +179,7 @@ fn the_page_shows_gas_and_parcels() {
     std::fs::rename(at("constant/CLOUDProperties"), root.join("constant/coalCloud1Properties")).unwrap();
     let results = openfoam::read(&root).unwrap();
     let page = openfoam_page(&results).unwrap();
-    let section = page.split_once("Gas and parcels</h2>").unwrap().1.split_once("<h2>").unwrap().0;
+    let section = page.split_once("Gas and parcels</h2>").unwrap().1.split_once("<h2").unwrap().0;
     assert!(section.contains("Time 0.1 s, cut along y = 0.25 m."), "{section}");
     assert!(
         section.contains("3 of the 5 parcels of the cloud in flight: those within 0.025 m of the plane."),

@@ -6,6 +6,7 @@
 mod common;
 
 mod arguments;
+mod bench;
 mod compare;
 mod corpus;
 mod deposit_probe;
@@ -16,11 +17,14 @@ mod extra_inputs;
 mod faults;
 mod forecast;
 mod gas_and_parcels;
+mod init;
 mod laboratory_files;
 mod licences;
 mod map;
 mod pages;
 mod published;
+#[cfg(unix)]
+mod readme;
 mod real_measurements;
 mod recorded;
 mod report;

@@ -262,6 +262,29 @@ fn a_steady_case_speaks_of_iterations() {
     assert!(page.contains("The solve of iteration 1"), "no iteration above the table");
 }
 
+/// What, where, why and how sure; 60 of 100 have Wilson's interval from 0.5020 to 0.6906.
+#[test]
+fn the_page_opens_with_four_sentences_and_sets_few_hits_aside() {
+    let folder = two_cases();
+    let root = folder.path().join("ours");
+    let tables = "postProcessing/nearWallInteraction/coalCloud1";
+    write(&root, &format!("{tables}/0/quenchWall.dat"), &table(&[[1.0, 12.0, 4e-6, 3.0, 1e-6]]));
+    let page = openfoam_page(&openfoam::read(&root).unwrap()).unwrap();
+    let (verdict, rest) = page.split_once("<div class=\"verdict\">").unwrap().1.split_once("</div>").unwrap();
+    for part in [
+        "7.0 % of the injected mass is captured",
+        "Most is captured by slagWall: 60.0 % of its 100 hits",
+        "is caught as NSP-SW (non-sticky particles on a sticky wall)",
+        "50.2 % to 69.1 % for the share captured by slagWall",
+    ] {
+        assert!(verdict.contains(part), "`{part}` is not in {verdict}");
+    }
+    assert_eq!(verdict.matches("<p>").count(), 4, "{verdict}");
+    assert!(rest.contains("Walls with fewer than 30 hits, in no figure: quenchWall (12)."));
+    assert_eq!(page.matches("quenchWall").count(), 1);
+    assert!(rest.contains("href=\"#section-balance\"") && rest.contains("<h2 id=\"section-balance\""));
+}
+
 #[test]
 fn without_captures_there_is_no_plot_of_them_over_time() {
     let folder = two_cases();

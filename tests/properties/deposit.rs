@@ -117,8 +117,10 @@ proptest! {
             close(step.masses.molten - grown.molten, step.melted, grown.mass(), 1e-12)?;
 
             let around = Surroundings { voidage, cooling: Some(*cooling), ..Surroundings::default() };
-            let (after, losses) = model.advance(0, &grown, &around, *duration).unwrap();
+            let (after, losses, crossed) = model.advance(0, &grown, &around, *duration).unwrap();
             prop_assert_eq!(losses, [0.0; 4]);
+            close(crossed.from_gas - crossed.to_coolant, crossed.fusion, scale, 1e-8)?;
+            close(crossed.fusion, heat * step.melted, scale, 1e-12)?;
             close(after.mass(), grown.mass(), grown.mass(), 1e-12)?;
             close(after.molten, step.masses.molten, grown.mass(), 1e-12)?;
             prop_assert!(after.slag() > 0.0 || after.enclosed() == 0.0);

@@ -1,6 +1,6 @@
 """The installed Python package against the command, the golden table and itself. Called by tests/python/run.
 
-    package.py arrays|frames|findings|errors|alone ROOT COMMAND
+    package.py arrays|frames|findings|pages|errors|alone ROOT COMMAND
 """
 
 import csv
@@ -106,7 +106,7 @@ def arrays():
     outcomes = sum(column.nbytes for column in reference)
     assert peak < outcomes + 2 * v_n.nbytes + 1e6, f"{peak} bytes for outcomes of {outcomes}"
     before = v_n.copy()
-    refused(lambda: model.resolve(v_n[::2], d=d[:count // 2]), TypeError)
+    same(model.resolve(v_n[::2], d=d[:count // 2], **fixed).e_n, reference.e_n[::2], "with gaps")
 
     again = pickle.loads(pickle.dumps(model))
     found = [None] * 4
@@ -244,6 +244,67 @@ def findings():
     print(f"{len(SETS)} sets with the command's bytes, {count} findings; a planted effect found, noise left alone")
 
 
+def pages():
+    """Columns of frames go into `resolve`; comparison, map, sensitivity, report, check and rigs give the command's files."""
+    import pandas
+    import polars
+
+    model = nearwall.Model.from_file(model_file)
+    fixed = dict(d=5e-5, T_p=1300.0, T_w=1100.0)
+    expected = model.resolve(numpy.array([1.0, 2.0, 3.0]), **fixed)
+    kinds = [pandas.Series([1, 2, 3]), pandas.Series([1, 2, 3], dtype="Int64"), pandas.DataFrame({"a": [1.0, 2, 3], "b": 0.0})["a"],
+             polars.Series([1, 2, 3])]
+    for given in kinds:
+        same(model.resolve(given, **fixed).e_n, expected.e_n, str(type(given)))
+    refused(lambda: model.resolve(pandas.Series([1, None], dtype="Int64"), **fixed))
+
+    folder = SETS["squash-ball-temperature"]
+    base, softer = folder / "base.toml", pathlib.Path("softer.toml")
+    softer.write_text(base.read_text().replace("e_n = 0.", "e_n = 0.1"))
+    case = root / "tutorials/standalone/waxRig.toml"
+    rig = root / "validation/rigs/wax"
+    calls = [
+        (("compare", folder / "data.csv", "--models", base, softer, "--columns", folder / "columns.toml", "--out"),
+         lambda: nearwall.compare(folder / "data.csv", [base, softer], columns=folder / "columns.toml")),
+        (("map", model_file, "--x", "v_n=0.1:30:9", "--y", "T_p=1000:2000:7", "--set", "T_w=1200", "-o"),
+         lambda: nearwall.map(model_file, ("v_n", 0.1, 30, 9), ("T_p", 1000, 2000, 7), fixed={"T_w": 1200})),
+        (("sensitivity", case, "--particles", 20, "-o"), lambda: nearwall.sensitivity(case, particles=20)),
+        (("diagnose", rig / "measured.csv", "--case", rig / "case.toml", "--out"),
+         lambda: nearwall.diagnose(rig / "measured.csv", case=rig / "case.toml")),
+    ]
+    for arguments, call in calls:
+        name = arguments[0]
+        done = run(*arguments, f"commanded-{name}")
+        assert done.returncode == 0, done.stderr
+        found = call()
+        found.save(f"found-{name}")
+        files = sorted(path.relative_to(f"commanded-{name}") for path in pathlib.Path(f"commanded-{name}").rglob("*") if path.is_file())
+        assert files
+        for file in files:
+            assert pathlib.Path(f"commanded-{name}", file).read_bytes() == pathlib.Path(f"found-{name}", file).read_bytes(), file
+        assert "<iframe" in found._repr_html_() or found.findings
+
+    # Frames and models that are no files; the pages draw themselves.
+    table = pandas.read_csv(folder / "data.csv", comment="#")
+    ranked = nearwall.compare(table, [nearwall.Model.from_file(base), nearwall.Model.from_file(softer)], columns=folder / "columns.toml")
+    assert ranked.ranking == [str(base), str(softer)] or {pathlib.Path(name).name for name in ranked.ranking} == {"base.toml", "softer.toml"}
+    assert "nearwall-" not in ranked.html and len(ranked.plot("rmse_e_n").lines) > 0
+    drawn = calls[1][1]()
+    assert len(drawn.frame) == 63 and drawn.plot().collections
+    assert calls[2][1]().plot().patches
+
+    done = run("check", model_file)
+    assert nearwall.check(model_file) == done.stdout.rstrip() and nearwall.check(model).split("\n")[1:] == done.stdout.rstrip().split("\n")[1:]
+    assert "no such folder" in refused(lambda: nearwall.report("nowhere"))
+    assert "unknown input `v_m`" in refused(lambda: nearwall.map(model_file, ("v_m", 1, 2)))
+    assert "nowhere.toml" in refused(lambda: nearwall.compare(table, [base, "nowhere.toml"]))
+    script = subprocess.run([pathlib.Path(sys.executable).parent / "nearwall", "--version"], capture_output=True, text=True)
+    assert script.stdout == run("--version").stdout and script.returncode == 0, script
+    usage = subprocess.run([pathlib.Path(sys.executable).parent / "nearwall", "map"], capture_output=True, text=True)
+    assert usage.returncode == run("map").returncode == 2 and usage.stderr == run("map").stderr
+    print(f"{len(calls)} pages with the command's bytes; columns of {len(kinds)} kinds")
+
+
 def errors():
     """The command's words; Ctrl-C; no crash on nonsense."""
     pathlib.Path("bad.toml").write_text(model_file.read_text().replace("[normal]", "[normal]\nyield_ration = 1"))
@@ -329,4 +390,4 @@ def alone():
     print(f"Python {sys.version.split()[0]}, NumPy {numpy.__version__}")
 
 
-{"arrays": arrays, "frames": frames, "findings": findings, "errors": errors, "alone": alone}[part]()
+{"arrays": arrays, "frames": frames, "findings": findings, "pages": pages, "errors": errors, "alone": alone}[part]()

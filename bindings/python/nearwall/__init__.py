@@ -18,6 +18,7 @@ from .library import (ABI_VERSION, BAD_STATE, EXTRA_INPUTS, FILE, INPUTS, MODEL,
                       Outcomes, Speeds, TemperatureRanges, Walk, WallCooling, WallHeat, key_of_values,
                       thermophoresis, unlikely)
 from .materials import Material, Property, materials
+from .pages import Comparison, Map, Page, Sensitivity, check, compare, map, report, sensitivity
 from .prediction import predict
 from .simulation import Simulation, simulate
 
@@ -26,6 +27,7 @@ __version__ = VERSION
 __all__ = [
     "ABI_VERSION", "BAD_STATE", "EXTRA_INPUTS", "FILE", "INPUTS", "MODEL", "NOT_UTF8", "NO_CONDUCTIVITY", "NSP_NSW", "NSP_SW",
     "NULL_POINTER", "OK", "OUTSIDE_VALID_RANGE", "OUT_OF_RANGE", "PANIC", "REGIMES", "SP_NSW", "SP_SW", "STRUCT_SIZE",
-    "UNKNOWN_INPUT", "UNKNOWN_WALL", "VERSION", "Deposit", "DepositSource", "DepositSurroundings", "Diagnosis", "Error", "Finding",
-    "Gain", "Material", "Model", "Outcomes", "Parameter", "Property", "Simulation", "Speeds", "TemperatureRanges", "WallCooling", "WallHeat",
-    "diagnose", "key_of_values", "materials", "openfoam", "predict", "simulate", "unlikely"]
+    "UNKNOWN_INPUT", "UNKNOWN_WALL", "VERSION", "Walk", "Comparison", "Deposit", "DepositSource", "DepositSurroundings", "Diagnosis", "Error", "Finding",
+    "Gain", "Map", "Material", "Model", "Outcomes", "Page", "Parameter", "Property", "Sensitivity", "Simulation", "Speeds", "TemperatureRanges", "WallCooling", "WallHeat",
+    "check", "compare", "diagnose", "key_of_values", "map", "materials", "openfoam", "predict", "report", "sensitivity", "simulate",
+    "thermophoresis", "unlikely"]

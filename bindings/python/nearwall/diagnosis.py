@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import json
 import math
-import pathlib
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
-from .frames import Table, source
+from .frames import Table, kind_of, names, source
 from .library import Model
+from .pages import Page, Run, begin, options
+from .prediction import predict
 from .wheel import AnyPath, compiled, model_of, warn
 
 
@@ -100,15 +101,20 @@ def _table(findings: List[Finding]) -> str:
 
 
 @dataclass(frozen=True, repr=False)
-class Diagnosis:
-    """The result of `diagnose`. `record` is diagnosis.json, `extended_toml` the text of the extended model, which OpenFOAM
-    reads unchanged, `html` the page, `draws` the texts of model files drawn from the fit."""
+class Diagnosis(Page):
+    """The result of `diagnose`. `record` is diagnosis.json, `html` the page."""
 
     record: Dict[str, Any]
-    extended_toml: str
-    html: str
-    draws: List[str]
-    _json: str
+
+    @property
+    def extended_toml(self) -> str:
+        """The text of the extended model, which OpenFOAM reads unchanged."""
+        return self._texts["extended.toml"]
+
+    @property
+    def draws(self) -> List[str]:
+        """The texts of model files drawn from the fit."""
+        return [text for name, text in self._texts.items() if name.startswith("draws/")]
 
     @property
     def verdict(self) -> str:
@@ -135,16 +141,27 @@ class Diagnosis:
         """Rows that were left out: line (1 is the header) and reason."""
         return [(row["line"], row["reason"]) for row in self.record["rows"]["rejected"]]
 
-    def save(self, folder: AnyPath) -> None:
-        """Writes report.html, diagnosis.json, extended.toml and the drawn models in draws/, as the command does."""
-        place = pathlib.Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        texts = {"extended.toml": self.extended_toml, "diagnosis.json": self._json, "report.html": self.html}
-        texts.update({f"draws/{number:02}.toml": text for number, text in enumerate(self.draws, 1)})
-        if self.draws:
-            (place / "draws").mkdir(exist_ok=True)
-        for name, text in texts.items():
-            (place / name).write_text(text, encoding="utf-8")
+    def plot(self, table: Table, base: Union[Model, AnyPath], over: Optional[str] = None, observable: Optional[str] = None,
+             ax: Any = None) -> Any:
+        """Draws what was measured over a column, with the base and the extended model. By default the observable ("e_n", "e_t"
+        or "capture_efficiency") and the first column of the first finding."""
+        import matplotlib.pyplot
+        ax = ax or matplotlib.pyplot.subplots(layout="constrained")[1]
+        first = self.findings[0] if self.findings else None
+        observable = observable or (first.observable if first else "e_n")
+        observable = "capture_efficiency" if observable == "capture" else observable
+        over = over or (first.variables[0] if first and first.variables else "v_n")
+        kind = "dict" if kind_of(table) is None else None
+        predicted = "p_stick" if observable == "capture_efficiency" else observable
+        for model, name, marker in ((base, "base model", "x"), (self.model, "extended model", "+")):
+            with_model = predict(table, model, kind=kind)
+            column = f"{predicted}_predicted" if f"{predicted}_predicted" in names(with_model) else predicted
+            ax.plot(with_model[over], with_model[column], marker, label=name)
+        ax.plot(with_model[over], with_model[observable], "o", mfc="none", color="black", label="measured")
+        ax.set_xlabel(over)
+        ax.set_ylabel(f"{observable} [1]")
+        ax.legend()
+        return ax
 
     def __repr__(self) -> str:
         return f"<nearwall.Diagnosis: {self.verdict}>"
@@ -156,7 +173,8 @@ class Diagnosis:
         return f"<p>{escape(self.verdict)}</p>{table}{gain}<p>{rows['used']} of {rows['read']} rows used.</p>"
 
 
-def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[AnyPath] = None, group: Optional[str] = None,
+def diagnose(table: Table, model: Optional[Union[Model, AnyPath]] = None, *, case: Optional[AnyPath] = None,
+             impacts: Optional[AnyPath] = None, columns: Optional[AnyPath] = None, group: Optional[str] = None,
              wall: Optional[str] = None, seed: int = 1, level: float = 0.05, draws: int = 0,
              reach: Optional[Mapping[str, Tuple[float, float]]] = None) -> Diagnosis:
     """Finds the effects that a model lacks to explain measured impacts, as the command `nearwall diagnose` does.
@@ -165,14 +183,16 @@ def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[An
         average: v_n [m/s] and other inputs in SI units, and at least one of e_n, e_t [1], outcome ("rebound" or "stick") and
         capture_efficiency [1]; every other column is a possible cause (docs/data-file.md).
     model: the base model or the path of its file.
+    case: path of a case of `simulate`: rows are experiments on this rig (docs/rig-diagnosis.md), and the model is the case's.
+    impacts: folder of OpenFOAM cases with recorded impacts: rows are experiments on a rig; model is that of these runs.
     columns: path of a column map for a laboratory's own columns and units.
     group: column that tells groups of rows apart that may share an error.
     wall: the wall that is hit; by default the column `wall`, then the wall `default`, then the only wall.
     seed: of the split into fitted and held-out rows; the same seed gives the same result.
     level: accepted share of false discoveries, between 0 and 0.5.
     draws: number of model files to draw from the fit; the range over 39 is a 95 % band.
-    reach: what can be varied in the next measurement: input and its least and largest value in SI units, as
-        {"T_p": (290, 400)}; by default what varies in the data, up to twice its range.
+    reach: what can be varied in the next measurement: input, or key of the case, and its least and largest value in SI units,
+        as {"T_p": (290, 400)}; by default what varies in the data, up to twice its range.
 
     Raises Error, as the command; what the command notes on standard error is a warning. Lines count from the header, line 1.
     Ctrl-C ends it.
@@ -183,7 +203,20 @@ def diagnose(table: Table, model: Union[Model, AnyPath], *, columns: Optional[An
     for name, (low, high) in ranges:
         if not -math.inf < low < high < math.inf:
             raise ValueError(f"reach {name}: {low} to {high} is no range")
+    if case is not None or impacts is not None:
+        with begin() as folder:
+            run = Run(folder)
+            words = [] if model is None else ["--model", run.model(model)]
+            words += [word for name, (low, high) in ranges for word in ("--reach", f"{name}={low!r}:{high!r}")]
+            run.command("diagnose", run.table(table), "--out", run.out, *words, *options(
+                case=case, impacts=impacts, columns=columns, group=group, wall=wall, seed=seed, level=level, draws=draws))
+            texts = run.texts()
+            return Diagnosis(texts["report.html"], texts, json.loads(texts["diagnosis.json"]))
+    if model is None:
+        raise TypeError("diagnose needs a model, or a case for experiments on a rig")
     text, extended, page, drawn, notes = compiled().diagnose(
         model_of(model), source(table), columns, group, wall, seed, level, draws, ranges)
     warn(notes)
-    return Diagnosis(json.loads(text), extended, page, drawn, text)
+    texts = {"extended.toml": extended, "diagnosis.json": text, "report.html": page}
+    texts.update({f"draws/{number:02}.toml": drawn_text for number, drawn_text in enumerate(drawn, 1)})
+    return Diagnosis(page, texts, json.loads(text))

@@ -1,4 +1,4 @@
-"""The C library for Python: a model, and the deposit on a wall, with NumPy arrays that are not copied.
+"""The C library for Python: a model, and the deposit on a wall, with NumPy arrays that are read in place.
 
 The module loads the library that NEARWALL_LIBRARY names, else the compiled part of the package, else the library that
 `bindings/install` put beside it, else libnearwall.so.1 on the loader's path. A model never changes and many threads may use
@@ -10,15 +10,18 @@ from __future__ import annotations
 
 import ctypes
 import os
+import warnings
 from ctypes import (POINTER, Structure, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_uint64,
                     c_void_p)
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy
 from numpy.typing import NDArray
 
-#: One number for all impacts, or an array with one entry for each.
-Input = Union[float, NDArray[numpy.float64]]
+#: One number or word for all impacts, or anything with one entry for each: an array, a list, a column of a frame.
+Input = Any
+#: Name or index of a wall.
+Wall = Union[int, str]
 
 # GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
@@ -38,6 +41,7 @@ OUT_OF_RANGE = 8
 PANIC = 9
 UNKNOWN_INPUT = 10
 NO_CONDUCTIVITY = 11
+NO_HEAT_CAPACITY = 12
 NSP_NSW = 0
 NSP_SW = 1
 SP_NSW = 2
@@ -94,7 +98,8 @@ class nw_wall_heat(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("reserved", c_uint32), ("surface_temperature", c_double),
         ("wall_temperature", c_double), ("heat_flux", c_double), ("coolant_flux", c_double),
-        ("deposit_resistance", c_double), ("disagreement", c_double)]
+        ("deposit_resistance", c_double), ("disagreement", c_double), ("behind_temperature", c_double),
+        ("behind_resistance", c_double)]
 
 
 class nw_deposit(Structure):
@@ -120,7 +125,9 @@ class nw_deposit_surroundings(Structure):
 
 class nw_deposit_losses(Structure):
     _fields_ = [
-        ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES)]
+        ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES),
+        ("heat_taken", c_double), ("heat_to_coolant", c_double), ("heat_of_fusion", c_double),
+        ("deposit_resistance", c_double)]
 
 
 class nw_walk(Structure):
@@ -158,6 +165,7 @@ FUNCTIONS = {
     "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
     "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
+    "nw_heat_brought": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
     "nw_deposit_source_init": (c_int32, [POINTER(nw_deposit_source)]),
@@ -183,19 +191,21 @@ FUNCTIONS = {
 }
 # END GENERATED
 
-REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")  # names of the numbers in `Outcomes.regime`
+#: The regimes of impacts: SP sticky particle, NSP non-sticky particle, SW sticky wall, NSW non-sticky wall.
+REGIMES = ("NSP-NSW", "NSP-SW", "SP-NSW", "SP-SW")
+_REGIME_NAMES = numpy.array(REGIMES)
 
 
 class Outcomes(NamedTuple):
     """The outcomes of N impacts, arrays of shape (N,). `e_n` and `e_t` [1] are those of a rebound, `p_stick` [1] is the
-    probability of capture, `omega` the spin afterwards [rad/s], `regime` a number of REGIMES, `stuck` 1 for a captured
-    particle, `flags` a sum of OUTSIDE_VALID_RANGE and others."""
+    probability of capture, `omega` the spin afterwards [rad/s], `regime` one of REGIMES, `stuck` 1 for a captured
+    particle, `flags` OUTSIDE_VALID_RANGE or 0."""
 
     e_n: NDArray[numpy.float64]
     e_t: NDArray[numpy.float64]
     p_stick: NDArray[numpy.float64]
     omega: NDArray[numpy.float64]
-    regime: NDArray[numpy.uint32]
+    regime: NDArray[numpy.str_]
     stuck: NDArray[numpy.uint32]
     flags: NDArray[numpy.uint32]
 
@@ -319,14 +329,35 @@ def _check(status: int, message: str = "", index: Optional[int] = None) -> None:
 
 
 def _column(name: str, value: Any, count: int, kind: Any) -> NDArray[Any]:
-    """The array itself, or an array that repeats a number."""
-    if numpy.ndim(value) == 0:
-        return numpy.full(count, value, kind)
-    if not isinstance(value, numpy.ndarray) or value.dtype != kind or not value.flags.c_contiguous:
-        raise TypeError(f"{name} has to be a contiguous array: numpy.ascontiguousarray({name}, numpy.{numpy.dtype(kind).name})")
-    if value.shape != (count,):
-        raise ValueError(f"{name} has shape {value.shape}, there are {count} impacts")
-    return value
+    """The array itself where it can be read in place, else a copy of that kind; a number is repeated."""
+    if getattr(getattr(value, "dtype", None), "na_value", None) is not None:  # pandas' numbers with blanks
+        value = value.to_numpy(dtype=float, na_value=numpy.nan) if kind is numpy.float64 else value.to_numpy()
+    given = numpy.asarray(value)
+    if given.ndim > 0 and given.shape != (count,):
+        raise ValueError(f"{name} has shape {given.shape}, there are {count} impacts")
+    if kind is not numpy.float64:
+        bits = 8 * numpy.dtype(kind).itemsize
+        if given.dtype.kind not in "iu":
+            raise TypeError(f"{name} has to be of integers, not of {given.dtype}")
+        if given.size and not 0 <= int(given.min()) <= int(given.max()) < 2**bits:
+            raise ValueError(f"{name} has to be between 0 and 2**{bits} - 1")
+    try:
+        return numpy.full(count, given, kind) if given.ndim == 0 else numpy.ascontiguousarray(given, kind)
+    except (TypeError, ValueError) as fault:
+        raise TypeError(f"{name} has to be of numbers: {fault}") from None
+
+
+def _numbers_of_words(value: Any, number_of: Callable[[str], Any]) -> Any:
+    """The value with a number for each word; a value without words as it is."""
+    if isinstance(value, str):
+        return number_of(value)
+    if isinstance(value, (int, float)) or isinstance(value, numpy.ndarray) and value.dtype.kind not in "OSU":
+        return value
+    words = numpy.asarray(value)
+    if words.dtype.kind not in "OU" or not all(isinstance(word, str) for word in words.flat):
+        return value
+    different, places = numpy.unique(words.astype(str), return_inverse=True)
+    return numpy.array([number_of(word) for word in different])[places.reshape(words.shape)]
 
 
 def _index(name: str, value: int, bits: int) -> int:
@@ -483,15 +514,20 @@ class Model:
         unknown = set(inputs) - set(INPUTS) - set(self.extra_inputs)
         if unknown:
             raise TypeError(f"no such input: {', '.join(sorted(unknown))}")
-        words = {name: self.extra_input_value(name, value) for name, value in inputs.items()
-                 if isinstance(value, str) and name not in INPUTS}
+        def number_of(name: str) -> Callable[[str], float]:
+            return lambda word: self.extra_input_value(name, word)
+        words = {name: _numbers_of_words(value, number_of(name)) for name, value in inputs.items() if name not in INPUTS}
         return {**inputs, **words}
 
-    def _impact(self, wall: int, inputs: Dict[str, Any]) -> nw_impact:
+    def _wall(self, wall: Wall) -> int:
+        """The index of a wall given by name or index."""
+        return self.find_wall(wall) if isinstance(wall, str) else _index("wall", int(wall), 32)
+
+    def _impact(self, wall: Wall, inputs: Dict[str, Any]) -> nw_impact:
         """One impact from numbers and words."""
         impact = nw_impact()
         _check(_library.nw_impact_init(byref(impact)))
-        impact.wall = _index("wall", wall, 32)
+        impact.wall = self._wall(wall)
         for name, value in self._numbers(inputs).items():
             if name in INPUTS:
                 setattr(impact, name, value)
@@ -505,48 +541,59 @@ class Model:
         _check(_library.nw_model_find_wall(self._handle, _text("name", name), byref(wall)))
         return wall.value
 
-    def resolve(self, v_n: Input, wall: Union[int, NDArray[numpy.uint32]] = 0, seed: int = 0,
-                key: Optional[NDArray[numpy.uint64]] = None, **inputs: Union[Input, str]) -> Outcomes:
+    def resolve(self, v_n: Input, wall: Any = 0, seed: int = 0, key: Any = None, **inputs: Input) -> Outcomes:
         """Resolves N impacts, with one random draw for each.
 
-        v_n: normal speed [m/s], float64 of shape (N,) or a number. Arrays are read in place; one that would have to be copied
-            (of another type, or with gaps) raises TypeError.
-        wall: index of the wall (`find_wall`), or uint32 of shape (N,).
-        seed, key: the random draws depend only on them; `key` is uint64 of shape (N,), a unique number for each impact, by
-            default its index.
+        v_n: normal speed [m/s], a number or N of them: an array, a list, a column of a frame. Contiguous arrays of float64 are
+            read in place, all else is copied.
+        wall: name of a wall or its index (`find_wall`), or N of them.
+        seed, key: the random draws depend only on them; `key` has a unique integer for each impact, by default its index.
         inputs: v_t [m/s], omega [rad/s], d [m], T_p and T_w [K], rho_p [kg/m3], conversion [1] and the others of INPUTS and
-            of `extra_inputs`, each float64 of shape (N,) or a number; for an input of words also one word.
-        Returns Outcomes, arrays of shape (N,). Raises Error with the `index` of the first impact that cannot be decided.
+            of `extra_inputs`, each a number or N of them; for an input of words also words.
+        Returns Outcomes, arrays of shape (N,). Raises Error with the `index` of the first impact that cannot be decided. A
+        warning lists the inputs that were assumed, and how many impacts lie outside a stated range.
         """
-        numbers = self._numbers(inputs)
-        count = 1 if numpy.ndim(v_n) == 0 else len(numpy.asarray(v_n))
-        columns = {name: _column(name, value, count, numpy.float64) for name, value in numbers.items()}
-        columns["v_n"] = _column("v_n", v_n, count, numpy.float64)
+        given = {"v_n": v_n, **self._numbers(inputs)}
+        wall = _numbers_of_words(wall, self.find_wall)
+        many = [value for value in (*given.values(), wall, key) if numpy.ndim(value) > 0]
+        count = len(many[0]) if many else 1
+        columns = {name: _column(name, value, count, numpy.float64) for name, value in given.items()}
         if key is not None:
             if numpy.ndim(key) == 0 and count > 1:
                 raise TypeError("key has to be an array: with one number every impact would have the same random draws")
             columns["key"] = _column("key", key, count, numpy.uint64)
-        index = 0
-        if isinstance(wall, numpy.ndarray) and wall.ndim > 0:
+        if numpy.ndim(wall) > 0:
             columns["walls"] = _column("wall", wall, count, numpy.uint32)
-        else:
-            index = _index("wall", int(wall), 32)
-        impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=index, count=count,
+        impacts = nw_impacts(struct_size=ctypes.sizeof(nw_impacts), wall=0 if numpy.ndim(wall) else self._wall(wall), count=count,
                            seed=_index("seed", seed, 64))
         for name, column in columns.items():
             if name in self.extra_inputs:
                 impacts.extra[self.extra_inputs.index(name)] = column.ctypes.data
             else:
                 setattr(impacts, name, column.ctypes.data)
-        found = Outcomes(*(numpy.empty(count, numpy.float64 if i < 4 else numpy.uint32) for i in range(7)))
+        found = [numpy.empty(count, numpy.float64 if place < 4 else numpy.uint32) for place in range(7)]
         outcomes = nw_outcomes(ctypes.sizeof(nw_outcomes), *(column.ctypes.data for column in found))
         none = ctypes.c_size_t(-1).value
         first_bad = c_size_t(none)
         status = _library.nw_resolve_batch(self._handle, byref(impacts), byref(outcomes), byref(first_bad))
         _check(status, index=None if first_bad.value == none else first_bad.value)
-        return found
+        self._warn(columns, found[6])
+        del columns  # before the names of the regimes take their memory
+        e_n, e_t, p_stick, omega, regime, stuck, flags = found
+        return Outcomes(e_n, e_t, p_stick, omega, _REGIME_NAMES[regime], stuck, flags)
 
-    def speeds(self, wall: int = 0, **inputs: Union[float, str]) -> Speeds:
+    def _warn(self, given: Dict[str, Any], flags: NDArray[numpy.uint32]) -> None:
+        """Warns of inputs that were assumed and of ranges that were left."""
+        impact = self._impact(0, {})
+        assumed = [f"{name} = {getattr(impact, name):g}" for name in INPUTS if name not in given and getattr(impact, name)]
+        if assumed:
+            warnings.warn(f"assumed, in SI units: {', '.join(assumed)}", stacklevel=3)
+        beyond = numpy.flatnonzero(flags & OUTSIDE_VALID_RANGE)
+        if beyond.size:
+            warnings.warn(f"{beyond.size} of {flags.size} impacts lie outside a stated range, the first at index {beyond[0]}; "
+                          "Model.beyond and nearwall.predict say which and whether it matters", stacklevel=3)
+
+    def speeds(self, wall: Wall = 0, **inputs: Union[float, str]) -> Speeds:
         """Adhesive, yield and sticking velocity [m/s] of one impact; inputs are numbers, named as in `resolve`."""
         impact = self._impact(wall, inputs)
         found = [c_double() for _ in range(3)]
@@ -559,33 +606,33 @@ class Model:
         _check(_library.nw_particle_density(self._handle, byref(impact), byref(found)))
         return found.value
 
-    def erosion(self, mass: float, wall: int = 0, **inputs: Union[float, str]) -> float:
+    def erosion(self, mass: float, wall: Wall = 0, **inputs: Union[float, str]) -> float:
         """Volume of wall [m3] that particles of a total `mass` [kg] remove by impacts like this one."""
         impact, found = self._impact(wall, inputs), c_double()
         _check(_library.nw_erosion(self._handle, byref(impact), mass, byref(found)))
         return found.value
 
-    def explain(self, v_n: float, wall: int = 0, **inputs: Union[float, str]) -> str:
+    def explain(self, v_n: float, wall: Wall = 0, **inputs: Union[float, str]) -> str:
         """Why an impact cannot be decided: the input, or material, property and range; empty if it can be."""
         impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
         status = _library.nw_explain(self._handle, byref(impact), text, len(text))
         return text.value.decode() if status else ""
 
-    def beyond(self, v_n: float, wall: int = 0, **inputs: Union[float, str]) -> list[str]:
+    def beyond(self, v_n: float, wall: Wall = 0, **inputs: Union[float, str]) -> list[str]:
         """What an impact uses outside of its stated range: properties and laws with their ranges; empty if all are kept."""
         impact, text = self._impact(wall, {"v_n": v_n, **inputs}), ctypes.create_string_buffer(2048)
         _check(_library.nw_beyond(self._handle, byref(impact), text, len(text)))
         return text.value.decode().splitlines()
 
-    def temperature_ranges(self, wall: int = 0) -> TemperatureRanges:
+    def temperature_ranges(self, wall: Wall = 0) -> TemperatureRanges:
         """Temperatures [K] for which the properties of particle and wall are defined."""
         found = [c_double() for _ in range(4)]
-        _check(_library.nw_temperature_ranges(self._handle, _index("wall", wall, 32), *map(byref, found)))
+        _check(_library.nw_temperature_ranges(self._handle, self._wall(wall), *map(byref, found)))
         return TemperatureRanges(*(number.value for number in found))
 
-    def initial_deposit(self, wall: int, voidage: float) -> Deposit:
+    def initial_deposit(self, wall: Wall, voidage: float) -> Deposit:
         """The initial deposit of a wall in the model file; `voidage` is the share of voids in the powder [1]."""
-        deposit = Deposit(wall)
+        deposit = Deposit(self._wall(wall))
         _check(_library.nw_deposit_initial(self._handle, voidage, byref(deposit)))
         return deposit
 
@@ -597,12 +644,19 @@ class Model:
         names = ("wall", "T_w", "layer_thickness", "coverage", "melt_thickness")
         return {name: getattr(impact, name) for name in names}
 
-    def add_captured(self, source: DepositSource, mass: float, density: float, T_w: float, wall: int = 0,
+    def add_captured(self, source: DepositSource, mass: float, density: float, T_w: float, wall: Wall = 0,
                      **inputs: Union[float, str]) -> None:
         """Adds a captured particle: its `mass` per wall area [kg/m2] and its `density` [kg/m3]. The wall temperature T_w [K]
         decides whether it counts as molten; inputs are numbers, named as in `resolve`."""
         impact = self._impact(wall, {"T_w": T_w, **inputs})
         _check(_library.nw_deposit_source_add(self._handle, byref(impact), mass, density, byref(source)))
+
+    def heat_brought(self, T_w: float, wall: int = 0, heat_capacity: float = 0.0, **inputs: Union[float, str]) -> float:
+        """Heat [J/kg] that a captured particle brings to the surface of T_w [K] that it lands on, with its
+        `heat_capacity` [J/(kg K)], or 0 for that of its material; inputs are numbers, named as in `resolve`."""
+        impact, found = self._impact(wall, {"T_w": T_w, **inputs}), c_double()
+        _check(_library.nw_heat_brought(self._handle, byref(impact), heat_capacity, byref(found)))
+        return found.value
 
     def film_velocity(self, deposit: Deposit, T_w: float, gravity_along: float, heat_flux: Optional[float] = None) -> float:
         """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2. With a `heat_flux` to a
@@ -636,8 +690,8 @@ class Model:
         names = [_library.nw_process_loss(index).decode() for index in range(PROCESSES)]
         return {name: mass for name, mass in zip(names, losses.mass) if name}
 
-    def wall_processes(self, wall: int = 0) -> List[str]:
+    def wall_processes(self, wall: Wall = 0) -> List[str]:
         """Names of the processes that change a deposit on a wall, in the order in which they act."""
         found = c_uint32()
-        _check(_library.nw_wall_processes(self._handle, _index("wall", wall, 32), byref(found)))
+        _check(_library.nw_wall_processes(self._handle, self._wall(wall), byref(found)))
         return [_library.nw_process_name(index).decode() for index in range(PROCESSES) if found.value >> index & 1]

@@ -5,6 +5,7 @@
 
 #![allow(unsafe_code, reason = "PyO3's macros write the entries that Python calls")]
 
+mod command;
 mod diagnosis;
 mod materials;
 mod openfoam;
@@ -21,6 +22,7 @@ pub use nearwall::c_api;
 /// The compiled part of nearwall.
 #[pymodule]
 fn _compiled(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(command::command, module)?)?;
     module.add_function(wrap_pyfunction!(diagnosis::diagnose, module)?)?;
     module.add_function(wrap_pyfunction!(prediction::predict, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::simulate, module)?)?;

@@ -19,7 +19,7 @@ pub struct KeptWall {
 impl KeptWall {
     pub fn call(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let model = if bytes.byte() == 0 { null() } else { model };
-        match bytes.byte() % 9 {
+        match bytes.byte() % 10 {
             0 => begin(bytes),
             1 => self.start(bytes, model),
             2 => self.add_captured(bytes, model),
@@ -28,6 +28,7 @@ impl KeptWall {
             6 => self.heat(bytes, model),
             7 => self.advance(bytes, model),
             8 => ask(bytes, model),
+            9 => bring(bytes, model),
             _ => self.flow(bytes, model),
         }
     }
@@ -385,6 +386,26 @@ fn ask(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let process = bytes.word() as u32;
     let unknown = process as usize >= NW_PROCESSES;
     assert!(nw_process_name(process).is_null() == unknown && nw_process_loss(process).is_null() == unknown);
+}
+
+/// Heat that a captured particle brings.
+fn bring(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    let capacity = if bytes.below(2) == 0 { 1e3 } else { bytes.number() };
+    let given = impact(bytes);
+    let mut asked = GuardedBuffer::holding(bytes, given);
+    let from: *const nw_impact = asked.start_or_null(bytes);
+    let mut buffer = GuardedBuffer::new(bytes, 8);
+    let to = buffer.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_heat_brought(model, from, capacity, to) };
+    known(status);
+    asked.assert_guard_intact();
+    buffer.assert_guard_intact();
+    if status == NW_OK {
+        assert!(buffer.f64().is_finite());
+    } else {
+        buffer.assert_untouched();
+    }
 }
 
 fn begin(bytes: &mut Bytes<'_>) {

@@ -64,6 +64,6 @@ impl GuardedBuffer {
 }
 
 pub fn known(status: nw_status) {
-    let others = [NW_UNKNOWN_INPUT, NW_NO_CONDUCTIVITY];
+    let others = [NW_UNKNOWN_INPUT, NW_NO_CONDUCTIVITY, NW_NO_HEAT_CAPACITY];
     assert!((NW_OK..NW_PANIC).contains(&status) || others.contains(&status), "status {status}");
 }

@@ -2,7 +2,7 @@
 
 use std::io::Read;
 
-use super::column::{ColumnCells, ColumnValues};
+use super::column::{ColumnCells, ColumnValues, DataColumn};
 use super::column_map::ColumnMap;
 use super::column_names::{CAPTURES, DETAILS, OBSERVATIONS, ONLY_MAPPED, PARCEL_COLUMNS};
 use super::csv_table::CsvTable;
@@ -65,15 +65,8 @@ impl<'a> Builder<'a> {
         let headers = table.headers();
         let named = map.name_columns(headers).map_err(|problem| table.header_fault(problem.to_string()))?;
         let inputs = InputColumns::new(|name| named.column(name));
-        let style = table.style();
-        let unnamed = |name: &str| {
-            let found = headings::find_further(name, headers)?;
-            let is_free = named.name_of(found.index).is_none() && !map.ignores(&headers[found.index]);
-            is_free.then_some(found)
-        };
-        let inputs = inputs.with_extra(walls.model().extra_inputs(), style, |name| {
-            let index = named.index(name).map(|index| FoundColumn { index, unit: Unit::SI });
-            index.or_else(|| unnamed(name))
+        let inputs = inputs.with_extra(walls.model().extra_inputs(), table.style(), |name| {
+            extra_column(name, headers, map, &named)
         });
         let angle = named.column("angle").zip(map.from).map(|(column, from)| AngleColumn { column, from });
         let velocity = ImpactVelocity::of(&inputs, named.column("speed"), angle)
@@ -84,13 +77,14 @@ impl<'a> Builder<'a> {
         }
         let records_captures = CAPTURES.iter().any(|name| named.index(name).is_some());
         walls.check(named.index("wall").is_some())?;
-        let mut causes = causes(headers, map, &named);
         // A column of groups tells rows apart also where the model has an input of its name.
-        let groups = |index: usize| headers.get(index).is_some_and(|header| map.reads_labels(header));
-        let is_series = |index: usize| named.name_of(index) == Some("series");
-        causes.retain(|(index, _)| !inputs.is_extra(*index) || is_series(*index) || groups(*index));
+        let tells_groups = |index: &usize| {
+            let is_group = headers.get(*index).is_some_and(|header| map.reads_labels(header));
+            is_group || named.name_of(*index) == Some("series")
+        };
+        let mut causes = causes(headers, map, &named);
+        causes.retain(|(index, _)| !inputs.is_extra(*index) || tells_groups(index));
         let errors = InputErrorColumns::new(&named);
-        let tells_groups = |index: &usize| is_series(*index) || groups(*index);
         Ok(Self {
             groups: causes.iter().map(|(index, _)| *index).filter(tells_groups).collect(),
             extra_counts: vec![[0; 2]; inputs.extra().count()],
@@ -227,13 +221,7 @@ impl<'a> Builder<'a> {
             let reason = "there is no row under the header; write one row per impact".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
         }
-        // Where captures are recorded at all, a row with e_n above 0 is one of the rebounds.
-        if self.outcomes > 0 {
-            let unstated = self.rows.iter_mut().filter(|row| row.is_unstated_rebound());
-            unstated.for_each(|row| row.captured = Some(0.0));
-        } else {
-            self.rows.iter_mut().for_each(|row| row.captured = None);
-        }
+        self.settle_captures();
         let gives = |name: &&'static str| self.inputs.gives(name) || self.velocity.gives(name);
         let given: Vec<&'static str> = INPUTS.iter().map(|input| input.name).filter(gives).collect();
         let mut notes = self.header_notes(headers, &given);
@@ -242,22 +230,7 @@ impl<'a> Builder<'a> {
         notes.extend(self.selection_notes(headers));
         let extra = self.inputs.extra().enumerate().filter(|(_, (_, given))| *given);
         let given_extra: Vec<usize> = extra.map(|(place, _)| place).collect();
-        let mut columns = Vec::new();
-        for (_, cells) in self.causes {
-            let (column, invalid) = cells.finish(|cell| self.map.parse(cell));
-            if let Some((line, cell)) = invalid {
-                let name = &column.name;
-                notes.push(format!(
-                    "column `{name}` is read as text because `{cell}` on line {line} is not a number"
-                ));
-            }
-            // A `wall` column with a single wall does not vary in meaning.
-            let one_wall = column.name == "wall"
-                && matches!(&column.values, ColumnValues::Labels { levels, .. } if levels.len() < 2);
-            if !one_wall {
-                columns.push(column);
-            }
-        }
+        let columns = columns(self.causes, self.map, &mut notes);
         Ok(Measurements {
             file: file.to_owned(),
             rows: self.rows,
@@ -270,6 +243,16 @@ impl<'a> Builder<'a> {
             rejected: self.rejected,
             notes,
         })
+    }
+
+    /// Where captures are recorded at all, a row with `e_n` above 0 is one of the rebounds.
+    fn settle_captures(&mut self) {
+        if self.outcomes > 0 {
+            let unstated = self.rows.iter_mut().filter(|row| row.is_unstated_rebound());
+            unstated.for_each(|row| row.captured = Some(0.0));
+        } else {
+            self.rows.iter_mut().for_each(|row| row.captured = None);
+        }
     }
 
     /// The assumed values of the inputs that the model declares.
@@ -421,6 +404,41 @@ fn causes(headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) ->
         }
     };
     headers.iter().enumerate().filter_map(cause).collect()
+}
+
+/// The column of an input that the model declares: of the map, else one of that name which nothing else reads.
+fn extra_column(
+    name: &str,
+    headers: &csv::StringRecord,
+    map: &ColumnMap,
+    named: &NamedColumns,
+) -> Option<FoundColumn> {
+    if let Some(index) = named.index(name) {
+        return Some(FoundColumn { index, unit: Unit::SI });
+    }
+    let found = headings::find_further(name, headers)?;
+    let is_free = named.name_of(found.index).is_none() && !map.ignores(&headers[found.index]);
+    is_free.then_some(found)
+}
+
+/// The columns of possible causes with their values. A `wall` column with a single wall does not vary in meaning.
+fn columns(causes: Vec<(usize, ColumnCells)>, map: &ColumnMap, notes: &mut Vec<String>) -> Vec<DataColumn> {
+    let mut columns = Vec::new();
+    for (_, cells) in causes {
+        let (column, invalid) = cells.finish(|cell| map.parse(cell));
+        if let Some((line, cell)) = invalid {
+            let name = &column.name;
+            notes.push(format!(
+                "column `{name}` is read as text because `{cell}` on line {line} is not a number"
+            ));
+        }
+        let one_wall = column.name == "wall"
+            && matches!(&column.values, ColumnValues::Labels { levels, .. } if levels.len() < 2);
+        if !one_wall {
+            columns.push(column);
+        }
+    }
+    columns
 }
 
 /// Whether the file is a record of OpenFOAM's parcels.

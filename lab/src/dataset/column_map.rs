@@ -89,7 +89,8 @@ impl ColumnMap {
         if !columns.has(name) {
             return Ok(());
         }
-        let (column, unit) = if columns.is_section(name) {
+        let is_section = columns.is_section(name);
+        let (column, unit) = if is_section {
             let details = columns.required_section(name)?;
             let column = details.required_text("column")?;
             let unit = read_unit(&details, dimension)?;
@@ -109,22 +110,25 @@ impl ColumnMap {
             "angle" if self.from.is_none() => {
                 return Err(columns.fault(name, format!("state its unit and its origin: {ANGLE_EXAMPLE}")));
             }
-            ANGLE_ERROR if !columns.is_section(name) => {
+            ANGLE_ERROR if !is_section => {
                 return Err(columns.fault(name, "state its unit: { column = \"...\", unit = \"deg\" }"));
             }
             _ => {}
         }
         let column = column.trim().to_owned();
-        if let Some(other) = self.sources.iter().find(|other| other.column == column) {
-            return Err(columns.fault(name, format!("column `{column}` is already used for {}", other.name)));
-        }
-        if self.ignored.contains(&column) {
-            return Err(columns.fault(
-                name,
-                format!("column `{column}` is also listed under [ignore]; remove one of the two"),
-            ));
-        }
+        self.check_unused(&column).map_err(|problem| columns.fault(name, problem))?;
         self.sources.push(MappedColumn { name, column, unit });
+        Ok(())
+    }
+
+    /// Why a column cannot be mapped to a further name.
+    fn check_unused(&self, column: &str) -> Result<(), String> {
+        if let Some(other) = self.sources.iter().find(|other| other.column == column) {
+            return Err(format!("column `{column}` is already used for {}", other.name));
+        }
+        if self.ignored.iter().any(|ignored| ignored == column) {
+            return Err(format!("column `{column}` is also listed under [ignore]; remove one of the two"));
+        }
         Ok(())
     }
 

@@ -99,18 +99,23 @@ impl<R: Read> CsvTable<R> {
             spare: None,
         };
         table.headers = table.read_headers()?;
-        if table.headers.iter().all(str::is_empty) {
-            let problem = "there is no header; the first line that is no comment must name the columns";
-            let (file, problem) = (file.to_owned(), problem.to_owned());
-            return Err(DatasetError::Header { file, line: layout.header_line, problem });
-        }
-        for (index, name) in table.headers.iter().enumerate() {
-            if !unused(name) && table.headers.iter().take(index).any(|earlier| earlier == name) {
-                return Err(table.header_fault(format!("column `{name}` occurs twice; rename one")));
-            }
-        }
+        table.check_headers(unused)?;
         table.read_units(mapped)?;
         Ok(table)
+    }
+
+    /// Refuses a missing header and repeated names.
+    fn check_headers(&self, unused: impl Fn(&str) -> bool) -> Result<(), DatasetError> {
+        if self.headers.iter().all(str::is_empty) {
+            let problem = "there is no header; the first line that is no comment must name the columns";
+            return Err(self.header_fault(problem.to_owned()));
+        }
+        for (index, name) in self.headers.iter().enumerate() {
+            if !unused(name) && self.headers.iter().take(index).any(|earlier| earlier == name) {
+                return Err(self.header_fault(format!("column `{name}` occurs twice; rename one")));
+            }
+        }
+        Ok(())
     }
 
     /// Writes the units of a row under the header into the headings, or keeps the row as the first one.

@@ -72,6 +72,15 @@ enum Seen {
     Limit(Limit),
 }
 
+/// A value, or what bounds it.
+fn split(seen: Option<Seen>) -> (Option<Reading>, Option<Limit>) {
+    match seen {
+        Some(Seen::Reading(reading)) => (Some(reading), None),
+        Some(Seen::Limit(limit)) => (None, Some(limit)),
+        None => (None, None),
+    }
+}
+
 /// The cells of a row with an observation.
 pub(super) struct ObservedCells<'a> {
     pub(super) columns: &'a NamedColumns,
@@ -99,15 +108,8 @@ impl ObservedCells<'_> {
                 self.reading(["e_n", "e_n_err"], 0.0, &mut no_error)?,
                 self.reading(["e_t", "e_t_err"], -HIGHEST, &mut no_error)?,
             ];
-            let exact = |seen: Option<Seen>| match seen? {
-                Seen::Reading(reading) => Some(reading),
-                Seen::Limit(_) => None,
-            };
-            let limit = |seen: Option<Seen>| match seen? {
-                Seen::Reading(_) => None,
-                Seen::Limit(limit) => Some(limit),
-            };
-            (row.e_n, row.e_t, row.limits) = (exact(seen[0]), exact(seen[1]), seen.map(limit));
+            let [e_n, e_t] = seen.map(split);
+            (row.e_n, row.e_t, row.limits) = (e_n.0, e_t.0, [e_n.1, e_t.1]);
         }
         let no_rebound = row.e_n.is_some_and(|e| e.value == 0.0) && row.e_t.is_none_or(|e| e.value == 0.0);
         let no_rebound = no_rebound && row.limits[1].is_none();

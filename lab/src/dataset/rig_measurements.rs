@@ -76,6 +76,16 @@ struct ObservableColumn {
     count: Option<usize>,
 }
 
+/// The columns that set a number of the case, with their places.
+fn settings(headers: &csv::StringRecord) -> Vec<(usize, String)> {
+    let is_setting = |name: &str| {
+        let (first, rest) = name.split_once('.').unwrap_or((name, ""));
+        !rest.is_empty() && SETTING_TABLES.contains(&first) && !name.contains('@')
+    };
+    let named = headers.iter().enumerate().filter(|(_, name)| is_setting(name));
+    named.map(|(place, name)| (place, name.to_owned())).collect()
+}
+
 impl RigMeasurements {
     /// Reads rig-level data; `file` names the source in messages.
     ///
@@ -84,17 +94,7 @@ impl RigMeasurements {
     pub fn read(file: &str, source: impl Read) -> Result<Self, DatasetError> {
         let mut table = CsvTable::open(file, source, Layout::default(), |_| false, |_| false)?;
         let columns = observables(&table)?;
-        let is_setting = |name: &str| {
-            let (first, rest) = name.split_once('.').unwrap_or((name, ""));
-            !rest.is_empty() && SETTING_TABLES.contains(&first) && !name.contains('@')
-        };
-        let settings: Vec<(usize, String)> = table
-            .headers()
-            .iter()
-            .enumerate()
-            .filter(|(_, name)| is_setting(name))
-            .map(|(place, name)| (place, name.to_owned()))
-            .collect();
+        let settings = settings(table.headers());
         let experiment = table.column("experiment");
         let mut data = Self {
             file: file.to_owned(),

@@ -134,6 +134,35 @@ impl Copies {
             }
         }
     }
+
+    /// Averages of both models over the copies of each value: value, base, extended.
+    fn averages(
+        &self,
+        models: [&Hypothesis<'_>; 2],
+        main: &Covariate,
+        observable: Observable,
+    ) -> Vec<[f64; 3]> {
+        let Self { copies, originals, values, weights } = self;
+        let data = models[0].data;
+        let covariate = |other: &Covariate| {
+            let own = other.name == main.name;
+            let values = if own { ColumnValues::Numbers(values.clone()) } else { other.values.at(originals) };
+            let blank = originals.iter().map(|&row| !own && other.blank[row]).collect();
+            Covariate { values, blank, ..other.clone() }
+        };
+        let grid = data.with_rows(copies.clone(), data.covariates.iter().map(covariate).collect());
+        let all = grid.all();
+        let [base, extended] = models.map(|model| {
+            let model = Hypothesis { data: &grid, ..model.clone() };
+            evaluate(&model, &all).means().map(|(_, mean)| observable.predicted(&mean)).collect::<Vec<f64>>()
+        });
+        let point = |copies: &[usize]| {
+            let total: f64 = copies.iter().map(|&copy| weights[copy]).sum();
+            let mean = |of: &[f64]| copies.iter().map(|&copy| weights[copy] * of[copy]).sum::<f64>() / total;
+            [values[copies[0]], mean(&base), mean(&extended)]
+        };
+        all.chunk_by(|&a, &b| values[a] == values[b]).map(point).collect()
+    }
 }
 
 /// See [`DataView::curve`].
@@ -158,36 +187,16 @@ fn curve(
     let middles = (0..CURVE_POINTS)
         .map(|step| place(low) + (place(high) - place(low)) * step as f64 / (CURVE_POINTS - 1) as f64);
     let input = INPUTS.iter().enumerate().find(|(_, input)| main.is_input() && input.name == main.name);
-    let Copies { copies, originals, values, weights } = {
-        let mut all = Copies::default();
-        for middle in middles {
-            let value = if log { middle.exp() } else { middle }.clamp(low, high);
-            let mut near: Vec<(f64, usize)> =
-                seen.iter().map(|&row| ((place(numbers[row]) - middle).abs(), row)).collect();
-            near.sort_by(|a, b| a.0.total_cmp(&b.0));
-            near.truncate(nearest);
-            all.add(data, &near, input, value);
-        }
-        all
-    };
-    let covariate = |other: &Covariate| {
-        let own = other.name == main.name;
-        let values = if own { ColumnValues::Numbers(values.clone()) } else { other.values.at(&originals) };
-        let blank = originals.iter().map(|&row| !own && other.blank[row]).collect();
-        Covariate { values, blank, ..other.clone() }
-    };
-    let grid = data.with_rows(copies, data.covariates.iter().map(covariate).collect());
-    let all = grid.all();
-    let [base, extended] = models.map(|model| {
-        let model = Hypothesis { data: &grid, ..model.clone() };
-        evaluate(&model, &all).means().map(|(_, mean)| observable.predicted(&mean)).collect::<Vec<f64>>()
-    });
-    let point = |copies: &[usize]| {
-        let total: f64 = copies.iter().map(|&copy| weights[copy]).sum();
-        let mean = |of: &[f64]| copies.iter().map(|&copy| weights[copy] * of[copy]).sum::<f64>() / total;
-        [values[copies[0]], mean(&base), mean(&extended)]
-    };
-    all.chunk_by(|&a, &b| values[a] == values[b]).map(point).collect()
+    let mut all = Copies::default();
+    for middle in middles {
+        let value = if log { middle.exp() } else { middle }.clamp(low, high);
+        let mut near: Vec<(f64, usize)> =
+            seen.iter().map(|&row| ((place(numbers[row]) - middle).abs(), row)).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near.truncate(nearest);
+        all.add(data, &near, input, value);
+    }
+    all.averages(models, main, observable)
 }
 
 #[cfg(test)]

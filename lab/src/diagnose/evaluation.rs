@@ -82,6 +82,18 @@ impl<'a> Evaluation<'a> {
     ) -> Self {
         let rows = rows.into();
         let forecast = Arc::new(Forecast::of_data(model, data, &rows));
+        Self::of_forecast(data, forecast, rows, offsets, scatter)
+    }
+
+    /// These rows with predictions that are known, in their order.
+    pub fn of_forecast(
+        data: &'a DataSplit,
+        forecast: Arc<Forecast>,
+        rows: impl Into<Cow<'a, [usize]>>,
+        offsets: impl Into<Cow<'a, [Offset]>>,
+        scatter: Scatter,
+    ) -> Self {
+        let rows = rows.into();
         let (shared, captures) = (Arc::new(SharedErrors::default()), ConstantCapture::default());
         Self { data, rows, forecast, offsets: offsets.into(), scatter, captures, shared }
     }
@@ -230,6 +242,18 @@ impl<'a> Evaluation<'a> {
     /// Measured and predicted value of every row, `None` where it was not measured.
     pub fn pairs(&self, observable: Observable) -> impl Iterator<Item = Option<[f64; 2]>> {
         self.means().map(move |(row, mean)| Some([observable.measured(row)?, observable.predicted(&mean)]))
+    }
+
+    /// The first reading of every row about its predicted mean, in standard deviations; `None` without one.
+    pub fn standardised(&self) -> Vec<Option<f64>> {
+        let one = |(_, row, predictions, offset): (usize, &Measurement, &[Prediction], Offset)| {
+            let mean = mean(predictions, &offset);
+            let (which, reading) =
+                [row.e_n, row.e_t].into_iter().enumerate().find_map(|(which, one)| Some((which, one?)))?;
+            let (width, shift) = reading_noise(self.scatter[which], &offset, which, row, &reading, &mean);
+            Some((reading.value - mean.restitution[which] - shift) / width)
+        };
+        self.each().map(one).collect()
     }
 
     /// Index and predicted value of every row, without its offset.

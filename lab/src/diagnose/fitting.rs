@@ -92,6 +92,16 @@ impl<'a> CandidateRound<'a> {
         scored
     }
 
+    /// What the candidate adds, fitted.
+    fn fitted(&self, candidate: Candidate, tested: &Tested) -> Option<Addition> {
+        match candidate {
+            Candidate::Part(part) => self.fit_part(part, &tested.starts),
+            Candidate::Curve { sides, observable } => self.better_curve(sides, observable),
+            Candidate::ScatterTrend { covariate } => Some(Addition::ScatterTrend(self.fit_trend(covariate))),
+            Candidate::Captures(constant) => self.fit_constant(constant),
+        }
+    }
+
     fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {
         let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. } | Candidate::Captures(_));
         let hopeless =
@@ -99,12 +109,7 @@ impl<'a> CandidateRound<'a> {
         if tested.starts.is_empty() || hopeless {
             return None;
         }
-        let addition = match candidate {
-            Candidate::Part(part) => self.fit_part(part, &tested.starts)?,
-            Candidate::Curve { sides, observable } => self.better_curve(sides, observable)?,
-            Candidate::ScatterTrend { covariate } => Addition::ScatterTrend(self.fit_trend(covariate)),
-            Candidate::Captures(constant) => self.fit_constant(constant)?,
-        };
+        let addition = self.fitted(candidate, tested)?;
         let extended = addition.evaluate(self.hypothesis, &self.search).with_fitted_scatter();
         let freedom = addition.freedom();
         let differences = self.differences(&addition, &extended);
@@ -126,12 +131,8 @@ impl<'a> CandidateRound<'a> {
             // Units that agree by accident make any t; the likelihood does not.
             None => tested.p_value.max(chance_of_gain(raw)),
         };
-        let p_value = match &addition {
-            Addition::Part { part, .. } if part.part.is_stochastic() => {
-                p_value.min(chance_of_mean(&differences))
-            }
-            _ => p_value,
-        };
+        let is_stochastic = matches!(&addition, Addition::Part { part, .. } if part.part.is_stochastic());
+        let p_value = if is_stochastic { p_value.min(chance_of_mean(&differences)) } else { p_value };
         // Random signs of few rows do not tell candidates apart that more rows would.
         let least = if self.few.is_some_and(|few| few.alone) { FEW_TESTS } else { 1.0 };
         let q_value = corrected(p_value, tested.tests.max(least));

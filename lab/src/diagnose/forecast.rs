@@ -47,6 +47,11 @@ impl Forecast {
         Self::filled(model, &data.rows, rows, data.draws, &data.missing)
     }
 
+    /// Predictions that are known, one for each row.
+    pub fn stated(of_rows: Vec<Prediction>) -> Self {
+        Self { ends: (1..=of_rows.len()).collect(), predictions: of_rows }
+    }
+
     fn filled(
         model: &Model,
         all: &[Measurement],

@@ -52,26 +52,12 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
     let count = freed.coordinates().len();
     let freedom = (units as f64 - count as f64).max(1.0);
     let quantile = StudentsT::new(0.0, 1.0, freedom).map_or(2.0, |law| law.inverse_cdf(0.975));
-    let mut found = None;
-    for _ in 0..SUMMITS {
-        let result =
-            if stochastic { Ok(symmetric(&freed, rows, quantile)) } else { profiled(&freed, rows, quantile) };
-        match result {
-            Ok(intervals) => {
-                found = Some(intervals);
-                break;
-            }
-            Err(Higher(at)) => {
-                freed = freed.with_coordinates(&at);
-                freed.polish(rows);
-            }
-        }
-    }
+    let found =
+        if stochastic { symmetric(&freed, rows, quantile) } else { climbed(&mut freed, rows, quantile) };
     if hypothesis.coordinates().len() == count && hypothesis.captures.freedom() == freed.captures.freedom() {
         *hypothesis = freed.clone();
     }
-    // A profile that finds a better fit again and again has no ends.
-    let FoundIntervals { ends, covariance } = found.unwrap_or_else(|| symmetric(&freed, rows, quantile));
+    let FoundIntervals { ends, covariance } = found;
     let mut place = 0;
     for (part, freed) in hypothesis.parts.iter_mut().zip(&freed.parts) {
         let own = place..place + part.axes.len();
@@ -85,6 +71,21 @@ pub(super) fn set_intervals(hypothesis: &mut Hypothesis<'_>, rows: &[usize]) {
         };
         part.intervals = part.axes.iter().zip(&part.at).zip(&ends[own]).map(interval).collect();
     }
+}
+
+/// The intervals by profiles, around the highest fit that they find.
+fn climbed(freed: &mut Hypothesis<'_>, rows: &[usize], quantile: f64) -> FoundIntervals {
+    for _ in 0..SUMMITS {
+        match profiled(freed, rows, quantile) {
+            Ok(intervals) => return intervals,
+            Err(Higher(at)) => {
+                *freed = freed.with_coordinates(&at);
+                freed.polish(rows);
+            }
+        }
+    }
+    // A profile that finds a better fit again and again has no ends.
+    symmetric(freed, rows, quantile)
 }
 
 /// Standard errors of the coordinates from differences over short steps.

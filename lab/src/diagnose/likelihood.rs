@@ -413,13 +413,7 @@ pub(super) fn add_squares(
     let predictions = if row.impacts <= 1.0 || predictions.len() == 1 {
         predictions
     } else {
-        let average = |draws: &[Prediction]| {
-            let mean = mean(draws, offset);
-            let restitution = [0, 1].map(|which| mean.restitution[which] - offset.restitution[which]);
-            let reach = mean.variance.map(f64::sqrt);
-            Prediction { restitution, capture: mean.capture, weight: 1.0, reach, filling: 0 }
-        };
-        averages = by_filling(predictions).map(average).collect();
+        averages = by_filling(predictions).map(|draws| average(draws, offset)).collect();
         &averages
     };
     // The weight of a draw is the likelihood of the row under it, over that of all draws.
@@ -444,6 +438,14 @@ pub(super) fn add_squares(
             *sum += own / total;
         }
     }
+}
+
+/// The mean of draws as one prediction, without the offset.
+fn average(draws: &[Prediction], offset: &Offset) -> Prediction {
+    let mean = mean(draws, offset);
+    let restitution = [0, 1].map(|which| mean.restitution[which] - offset.restitution[which]);
+    let reach = mean.variance.map(f64::sqrt);
+    Prediction { restitution, capture: mean.capture, weight: 1.0, reach, filling: 0 }
 }
 
 /// What was seen of `e_n` (0) and `e_t` (1): a reading, and the limit if it is one.

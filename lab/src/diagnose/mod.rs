@@ -4,9 +4,11 @@
 //! fitted → forward selection → extended model → gain of its file on held-out rows → record.
 //! Effects are known only through their [`nearwall::effect::EffectInfo`], so every effect of the
 //! list is a candidate. Method and limits: `docs/diagnosis.md`. [`ImpactDiagnosis`] does all this
-//! for the files of a user; [`comparison`] ranks several models with the same likelihood.
+//! for the files of a user; [`comparison`] ranks several models with the same likelihood,
+//! [`benchmark`] scores laws on all measured sets.
 
 mod advice;
+pub mod benchmark;
 mod candidate;
 mod candidate_list;
 mod choice;

@@ -155,7 +155,7 @@ pub(super) fn fit_sentence(fit: &Fit) -> String {
 
 /// The verdict without a cause; `seen` is what was diagnosed, as "40 rows".
 pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) -> String {
-    let Words { subject, data, unseen, carries } = words;
+    let Words { subject, unseen, carries, .. } = words;
     if !diagnosis.refuted.is_empty() {
         let causes = diagnosis.refuted.join(", ");
         return format!(
@@ -165,23 +165,7 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
     let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
     let base: f64 = diagnosis.explanations.iter().filter(as_it_is).map(|one| one.probability).sum();
     if !diagnosis.undecided.is_empty() {
-        let one = |name: &String| {
-            let with = diagnosis.explanations.iter().filter(|one| one.causes.contains(name));
-            match with.map(|one| one.probability).sum::<f64>() {
-                0.0 => name.clone(),
-                probability => format!("{name} ({})", probability_words(probability)),
-            }
-        };
-        let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
-        return match base {
-            small if small <= 1.0 - LISTED => {
-                format!("These {data} speak against the {subject}, but cannot tell which of {causes}.")
-            }
-            _ => format!(
-                "The {subject} probably lacks something ({}), but these {data} cannot tell which of {causes}.",
-                probability_words(1.0 - base)
-            ),
-        };
+        return cannot_tell(diagnosis, words, base);
     }
     if diagnosis.unexplained_capture.is_some() || diagnosis.capture_ceiling.is_some() {
         return format!("In {seen} no effect is significant, but the model does not reproduce the captures.");
@@ -195,6 +179,26 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
     format!(
         "In {seen} no cause is probable enough to be named: the base model as it is has the {}.",
         probability_words(base)
+    )
+}
+
+/// That one of several causes is there; the base model as it is has the probability `base`.
+fn cannot_tell(diagnosis: &Diagnosis, words: &Words, base: f64) -> String {
+    let Words { subject, data, .. } = words;
+    let one = |name: &String| {
+        let with = diagnosis.explanations.iter().filter(|one| one.causes.contains(name));
+        match with.map(|one| one.probability).sum::<f64>() {
+            0.0 => name.clone(),
+            probability => format!("{name} ({})", probability_words(probability)),
+        }
+    };
+    let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
+    if base <= 1.0 - LISTED {
+        return format!("These {data} speak against the {subject}, but cannot tell which of {causes}.");
+    }
+    format!(
+        "The {subject} probably lacks something ({}), but these {data} cannot tell which of {causes}.",
+        probability_words(1.0 - base)
     )
 }
 

@@ -213,10 +213,8 @@ pub(super) fn surface(
     targets: &[usize],
 ) -> (Vec<f64>, f64) {
     let rows: Vec<usize> = points.iter().map(|point| point.row).collect();
-    let based = |values: &[&'_ ColumnValues]| {
-        let with_basis = |values: &&'_ ColumnValues| Some((Basis::of(values, &rows)?, (*values).clone()));
-        values.iter().filter_map(with_basis).collect::<Vec<_>>()
-    };
+    let with_basis = |values: &&ColumnValues| Some((Basis::of(values, &rows)?, (*values).clone()));
+    let based = |values: &[&ColumnValues]| values.iter().filter_map(with_basis).collect::<Vec<_>>();
     let (own, others) = (based(own), based(others));
     let mut left: Vec<WeightedResidual> = points.to_vec();
     let mut fitted = vec![0.0; targets.len()];
@@ -249,12 +247,17 @@ pub(super) fn surface(
         }
     }
     // The mean stays with the model.
-    let weights: f64 = points.iter().map(|point| point.weight).sum();
-    let taken =
-        points.iter().zip(&left).map(|(before, after)| before.weight * (before.residual - after.residual));
-    let mean = if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 };
+    let mean = mean_taken(points, &left);
     fitted.iter_mut().for_each(|value| *value -= mean);
     (fitted, parameters)
+}
+
+/// Weighted mean of what a fit took from the residuals.
+fn mean_taken(before: &[WeightedResidual], after: &[WeightedResidual]) -> f64 {
+    let weights: f64 = before.iter().map(|point| point.weight).sum();
+    let taken =
+        before.iter().zip(after).map(|(before, after)| before.weight * (before.residual - after.residual));
+    if weights > 0.0 { taken.sum::<f64>() / weights } else { 0.0 }
 }
 
 /// The basis functions of an interaction: all products.

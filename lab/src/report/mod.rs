@@ -7,6 +7,7 @@
 //! [`diagnosis_page`] what a model lacks to explain impacts, [`rig_page`] the same for what a whole
 //! rig shows.
 
+mod bench;
 mod chart;
 mod compare;
 mod diagnosis;
@@ -18,6 +19,7 @@ mod sensitivity;
 pub mod sweep;
 mod walls;
 
+pub use bench::text as benchmark_text;
 pub use chart::{BarChart, Chart, ErrorBars, Figure, round_edges};
 pub use compare::{page as comparison_page, text as comparison_text};
 pub use diagnosis::page as diagnosis_page;

@@ -4,9 +4,13 @@ use askama::Template;
 
 use super::chart::Figure;
 
+/// Fewest headings with a list of contents.
+const LISTED_HEADINGS: usize = 3;
+
 /// One section of a page. All text is plain; the template escapes it.
 #[derive(Debug, Clone, PartialEq)]
 enum PagePart {
+    /// Links to all headings.
     Heading(String),
     Subheading(String),
     Lead(String),
@@ -76,6 +80,22 @@ impl Table {
         Self { caption: caption.to_owned(), header, rows, text_columns }
     }
 
+    /// The table for a terminal: columns of equal width under the caption.
+    pub fn text(&self) -> String {
+        let mut text = format!("\n{}\n", self.caption);
+        let lines = std::iter::once(&self.header).chain(&self.rows);
+        let width = |column: usize| {
+            let cells = lines.clone().filter_map(|line| line.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.header.len()).map(width).collect();
+        for line in lines.clone() {
+            let padded = line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
+            text += &format!("  {}\n", padded.collect::<Vec<_>>().join("  ").trim_end());
+        }
+        text
+    }
+
     /// A table with a row for each item; a column is its head and the text that it shows of an item.
     pub fn of_items<T>(
         caption: &str,
@@ -107,6 +127,23 @@ impl Page {
     pub fn new(title: &str) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         Self { title: title.to_owned(), sections: Vec::new(), foot: String::new(), version }
+    }
+
+    /// What the page can do in a browser.
+    const SCRIPT: &str = include_str!("page.js");
+
+    /// The headings with the places of their sections.
+    fn headings(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.sections.iter().enumerate().filter_map(|(place, part)| match part {
+            PagePart::Heading(text) => Some((place, text.as_str())),
+            _ => None,
+        })
+    }
+
+    /// Whether the list of contents stands before this section: the first heading of several.
+    fn begins_contents(&self, place: &usize) -> bool {
+        self.headings().count() >= LISTED_HEADINGS
+            && self.headings().next().is_some_and(|(first, _)| first == *place)
     }
 
     /// Adds a heading.

@@ -20,6 +20,26 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
     page.figures((0..walls.len()).filter_map(|wall| figure(found, wall)));
     page.heading("The numbers");
+    let (table, status) = table(found);
+    page.marked(table, status);
+    let none: Vec<&str> = found
+        .numbers
+        .iter()
+        .filter(|effect| effect.largest == 0.0)
+        .map(|effect| effect.key.as_str())
+        .collect();
+    if !none.is_empty() {
+        page.text(format!("Without any effect: {}.", none.join(", ")));
+    }
+    for note in &found.notes {
+        page.note(note.clone());
+    }
+    page.foot(&format!("{} particles.", found.particles));
+    page.html()
+}
+
+/// The numbers that change something, by rank, with the status of each.
+fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
     let rows: Vec<(usize, &NumberEffect)> = found
         .numbers
         .iter()
@@ -29,6 +49,7 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
         .collect();
     let mut header =
         ["rank", "number", "range", "source", "low", "value", "high"].map(str::to_owned).to_vec();
+    let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
     header.extend(walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall)));
     let cells = |(rank, effect): &(usize, &NumberEffect)| {
         let mut cells = vec![(rank + 1).to_string(), effect.key.clone(), effect.range.clone()];
@@ -52,21 +73,7 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
         rows: rows.iter().map(cells).collect(),
         text_columns: 4,
     };
-    page.marked(table, status.collect());
-    let none: Vec<&str> = found
-        .numbers
-        .iter()
-        .filter(|effect| effect.largest == 0.0)
-        .map(|effect| effect.key.as_str())
-        .collect();
-    if !none.is_empty() {
-        page.text(format!("Without any effect: {}.", none.join(", ")));
-    }
-    for note in &found.notes {
-        page.note(note.clone());
-    }
-    page.foot(&format!("{} particles.", found.particles));
-    page.html()
+    (table, status.collect())
 }
 
 /// Captured share at both ends of the ranges, by rank.

@@ -45,6 +45,8 @@ pub enum DrawsError {
 pub struct DrawnModels {
     /// The models, in the order of their file names.
     pub models: Vec<Model>,
+    /// The files.
+    pub files: Vec<PathBuf>,
 }
 
 impl DrawnModels {
@@ -76,7 +78,7 @@ impl DrawnModels {
             };
             Err(DrawsError::Other { file: file.clone(), reason: reason.to_owned() })
         };
-        Ok(Self { models: files.iter().map(read).collect::<Result<_, DrawsError>>()? })
+        Ok(Self { models: files.iter().map(read).collect::<Result<_, DrawsError>>()?, files })
     }
 }
 

@@ -271,7 +271,7 @@ impl Bin {
         let heat = cooling.ok_or_else(|| temperature.at(&place));
         let around = surroundings(case, surface, *friction_velocity, &place, number, voidage, heat);
         let before = self.deposit.layers().outer_powder;
-        (self.deposit, self.step.lost) = case.model.advance(*wall, &self.deposit, &around, duration)?;
+        (self.deposit, self.step.lost, _) = case.model.advance(*wall, &self.deposit, &around, duration)?;
         // What melts, is enclosed or leaves takes its carbon along.
         let kept = if before > 0.0 { self.deposit.layers().outer_powder / before } else { 1.0 };
         self.powder = self.powder.times(kept);

@@ -248,12 +248,12 @@ slide_sums() {  # name start
 totals_but_residual() { totals kinematicCloud "$1" | awk '$1 ~ /wall$/ { $9 = 0; if ($5*$5 < 1e-30) $5 = 0 } { print }'; }
 
 # The tables of the run that started at a time, and the fields at its end, against the serial ones
-memory_compare() { # name start
+memory_compare() { # name start [end]
     local difference
     totals_but_residual "$2" > totals.here
     if difference="$(same_totals "$work/memory-ranks/totals.serial" totals.here 1e-10)"
     then ok "$1/tables"; else bad "$1/tables" "$(head -n 1 <<< "$difference")"; fi
-    memory_values 0.2 > values.here
+    memory_values "${3:-0.2}" > values.here
     if difference="$(same_values "$work/memory-ranks/values.serial" values.here 1e-10)"
     then ok "$1/fields ($(wc -l < values.here) values)"; else bad "$1/fields" "$(head -n 1 <<< "$difference")"; fi
 }
@@ -373,10 +373,11 @@ decompose_into() {
     quiet decompose decomposePar
 }
 
-# Height and thickness [m] on each face of the wall x = 0 in the end
+# Height and thickness [m] on each face of the wall x = 0 in the end, at the time 1 or another
 film_profile() {
+    local t="${1:-1}"
     quiet centres postProcess -func writeCellCentres -latestTime
-    paste <(side_values 1/Cx) <(side_values 1/Cz) <(side_values 1/kinematicCloud:moltenMass) \
+    paste <(side_values "$t/Cx") <(side_values "$t/Cz") <(side_values "$t/kinematicCloud:moltenMass") \
         | awk '$1*$1 < 1e-20 { print $2, $3/1000 }'
 }
 

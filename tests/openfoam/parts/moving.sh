@@ -106,6 +106,13 @@ END
     if near "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)" \
         "$(last "$(folder kinematicCloud)/floor.dat" stick_mass_kg)" 1e-12
     then ok refined/mass; else bad refined/mass "$(sum_of 0.1/lagrangian/kinematicCloudDeposit/mass)"; fi
+
+    # Memory goes along with a mesh that moves, and refuses one whose cells change
+    sed -i '1i memory {}' constant/interaction; sed -i 's/floor .*/floor { type interact; }/' constant/interaction
+    rm -rf 0.*
+    quiet memory "$solver"
+    if grep -q "cells or faces of the mesh have changed at time 0.02" log.memory && grep -q "Take a mesh that only moves" log.memory
+    then ok refined/memory-refused; else bad refined/memory-refused "$(grep -A3 -m1 FATAL log.memory | tr '\n' ' ')"; fi
 }
 
 # Two sides of the case in this folder become a cyclic pair; parcels have (0.3 3 -2) m/s
@@ -159,4 +166,134 @@ floor_hits() {
         <(face_values 0.06/kinematicCloud:hitCount | awk '$1 == "floor" { print $2 }') | awk '
         { n[int($1/0.025) "," int($2/0.025)] += $4 }
         END { for (i = 0; i < 4; i++) for (j = 0; j < 4; j++) print i "," j, n[i "," j] + 0 }'
+}
+
+# The whole mesh turns about an axis along y through its middle with 20 rad/s, and gravity pulls downwards. The floor holds 2 kg/m2
+# of powder whose shear strength is half of its weight, times a scatter
+turning_box() { # folder spread
+    build kinematic "$1" || return
+    solver=uncoupledKinematicParcelDyMFoam
+    cat > constant/dynamicMeshDict <<'END'
+FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
+dynamicFvMesh       dynamicMotionSolverFvMesh;
+motionSolverLibs    (fvMotionSolvers);
+motionSolver        solidBody;
+solidBodyMotionFunction rotatingMotion;
+rotatingMotionCoeffs { origin (0.05 0.05 0.05); axis (0 1 0); omega 20; }
+origin (0.05 0.05 0.05); axis (0 1 0); omega 20;
+END
+    sed -i 's/(0 0 0)/(0 0 -9.81)/' constant/g
+    sed -i "s/^\[walls.floor\]/&\nshedding = { tensile_strength = 1e9, shear_strength = 9.81, spread = $2 }/" constant/nearWall.toml
+    echo 'subModels { injectionModels { model1 { massTotal 0; ignoreOutOfBounds true; } } }' >> constant/kinematicCloudProperties
+    echo 'model "<constant>/nearWall.toml"; memory { } patches { "lid|sides|outlet" { type rebound; } }' > constant/interaction
+    powder_on floor 2 1e-3 5
+    settings 0.06 0.02 startTime ascii
+}
+
+# patch powder layer cover: fields of the start
+powder_on() {
+    local f
+    for f in "powderMass $2 1 -2" "layerThickness $3 0 1" "coverArea $4 0 0"; do
+        # shellcheck disable=SC2086
+        set -- "$1" $f
+        { header volScalarField "kinematicCloud:$2"
+          echo "dimensions [$4 $5 0 0 0 0 0]; internalField uniform 0; boundaryField { \".*\" { type calculated; value uniform 0; }"
+          echo "$1 { type calculated; value uniform $3; } }"
+        } > "0/kinematicCloud:$2"
+    done
+}
+
+# A slope of 30 degrees is reached after 0.02618 s: the step that ends at 0.028 s sheds 2 kg/m2 of 0.01 m2. Where the strength scatters
+# each place keeps its own, over a restart from a mesh that has turned and on two ranks.
+case_turning() {
+    local f
+    turning_box "$work/turning" 1 || return
+    solve turning one "$solver" || return
+    f="$(folder kinematicCloud)/floor.wall.dat"
+    expect_numbers turning/sheds "$(awk '$1 == "#" { for (i = 2; i <= NF; i++) at[$i] = i - 1; next }
+        $1 > 0.025 && $1 < 0.029 { printf "%s %s ", $at["shed_kg"], $at["powder_kg"] }' "$f")" "0 0.02 0.02 0"
+    check_memory_balance turning/balance "$f"
+
+    turning_box "$work/memory-ranks" 1.6 || return
+    solve turning scattered "$solver" || return
+    totals_but_residual 0 > totals.serial; memory_values 0.06 > values.serial
+    if awk -v a="$(awk '/powderMass-floor/ && $2 > 0' values.serial | wc -l)" 'BEGIN { exit !(a > 2 && a < 14) }'
+    then ok "turning/scatter (powder left on $(awk '/powderMass-floor/ && $2 > 0' values.serial | wc -l) of 16 faces)"
+    else bad turning/scatter "left on $(awk '/powderMass-floor/ && $2 > 0' values.serial | wc -l) of 16 faces"; fi
+    rm -rf "$work/turning-again"; cp -r . "$work/turning-again"; cd "$work/turning-again" || return
+    rm -rf 0.04 0.06 postProcessing; settings 0.06 0.02 latestTime ascii
+    solve turning again "$solver" || return
+    memory_compare turning/restart 0.02 0.06
+    rm -rf "$work/turning-2"; cp -r "$work/memory-ranks" "$work/turning-2"; cd "$work/turning-2" || return
+    rm -rf 0.0? postProcessing
+    decompose_into 2 "(2 1 1)"
+    solve turning ranks2 mpirun --oversubscribe -np 2 "$solver" -parallel || return
+    quiet reconstruct reconstructPar -latestTime
+    memory_compare turning/2-ranks 0 0.06
+}
+
+# While the mesh travels, four parcels of 2.5e-5 kg freeze in four steps on one face of 6.25e-4 m2: a layer of 3.2e-4 m, as in the
+# case memory. Then a restart, and a fifth, solid one rebounds from it with e_n = 0.5 (0.25 + 0.75 exp(-3.2e-4/1.28e-4)).
+case_travelling-memory() {
+    local f want
+    travelling "$work/travelling-memory" || return
+    { header vectorField parcels
+      echo "((0.0357 0.037 0.0075) (0.0333 0.037 0.0175) (0.0309 0.037 0.0275) (0.0285 0.037 0.0375) (0.0165 0.037 0.0875))"
+    } > constant/parcels
+    echo 'subModels { injectionModels { model1 { massTotal 1.25e-4; } } }' >> constant/kinematicCloudProperties
+    cat >> constant/nearWall.toml <<'END'
+[[effects]]
+kind = "melting-transition"
+temperature = 350
+width = 1
+[[effects]]
+kind = "powder-layer"
+thickness = 0.128e-3
+residual = 0.25
+END
+    sed -i '1i particleTemperature 400; memory {}' constant/interaction
+    sed -i 's/type interact;/type interact; wallTemperature 300;/' constant/interaction
+    settings 0.02 0.02 startTime ascii
+    solve travelling-memory first "$solver" || return
+    f="$(folder kinematicCloud)/floor.wall.dat"
+    expect_numbers travelling-memory/by-hand "$(last "$f" powder_max_kg_m2) $(last "$f" layer_thickness_max_m) $(last "$f" arrived_kg)" "0.16 3.2e-4 1e-4"
+    settings 0.05 0.05 latestTime ascii
+    sed -i 's/particleTemperature 400/particleTemperature 293.15/' constant/interaction
+    solve travelling-memory second "$solver" || return
+    want="$(awk 'BEGIN { printf "%.15g", 0.5*(0.25 + 0.75*exp(-3.2e-4/1.28e-4)) }')"
+    f="$(folder kinematicCloud 0.02)"
+    expect_numbers travelling-memory/e_n "$(last "$f/floor.dat" rebounds) $(last "$f/floor.dat" e_n_sum) $(last "$f/floor.wall.dat" powder_max_kg_m2)" "1 $want 0.16"
+    check_memory_balance travelling-memory/balance "$f/floor.wall.dat"
+}
+
+# The lid rises from 0.1 to 0.15 m while powder lies on the sides: the same 0.03 kg on 1.5 times the area
+case_stretched() {
+    local f
+    build kinematic "$work/stretched" || return
+    solver=uncoupledKinematicParcelDyMFoam
+    cat > constant/dynamicMeshDict <<'END'
+FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
+dynamicFvMesh       dynamicMotionSolverFvMesh;
+motionSolverLibs    (fvMotionSolvers);
+motionSolver        velocityComponentLaplacian;
+velocityComponentLaplacianCoeffs { component z; diffusivity uniform; }
+component           z;
+diffusivity         uniform;
+END
+    { header pointScalarField pointMotionUz
+      echo 'dimensions [0 1 -1 0 0 0 0]; internalField uniform 0; boundaryField { ".*" { type zeroGradient; }'
+      echo 'floor { type fixedValue; value uniform 0; } lid { type fixedValue; value uniform 0.5; } }'
+    } > 0/pointMotionUz
+    echo 'solvers { cellMotionUz { solver PCG; preconditioner DIC; tolerance 1e-12; relTol 0; } }' >> system/fvSolution
+    echo 'subModels { injectionModels { model1 { massTotal 0; } } }' >> constant/kinematicCloudProperties
+    echo 'model "<constant>/nearWall.toml"; memory { } patches { "lid|floor|outlet" { type rebound; } }' > constant/interaction
+    powder_on sides 1 1e-3 5
+    settings 0.1 0.1 startTime ascii
+    solve stretched one "$solver" || return
+    f="$(folder kinematicCloud)/sides.wall.dat"
+    expect_numbers stretched "$(last "$f" initial_kg) $(last "$f" powder_kg)" "0.03 0.03"
+    if near "$(last "$f" powder_mean_kg_m2)" 0.66666666666666667 1e-7 && near "$(last "$f" layer_thickness_max_m)" 6.6666666666666667e-4 1e-7
+    then ok "stretched/thickness ($(last "$f" layer_thickness_max_m) m of 1e-3)"
+    else bad stretched/thickness "$(last "$f" powder_mean_kg_m2) kg/m2, $(last "$f" layer_thickness_max_m) m"; fi
+    check_memory_balance stretched/balance "$f"
 }

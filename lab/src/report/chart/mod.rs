@@ -21,7 +21,7 @@ use axis::{all_drawable, drawable, ends, finite, round_step};
 
 pub use axis::round_edges;
 pub use bars::BarChart;
-pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, PlanePicture, hatching, swatch};
+pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, PlanePicture, hatching, swatch, text_at};
 pub(super) use scale::{ColourScale, NO_VALUE, Palette, regime_colour};
 pub use svg::Figure;
 

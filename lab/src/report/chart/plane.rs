@@ -84,15 +84,29 @@ impl<'a> PlanePicture<'a> {
     pub fn cells(&mut self, cells: &[MapCell], fills: &[String]) {
         let mut paths: BTreeMap<String, String> = BTreeMap::new();
         for (cell, fill) in cells.iter().zip(fills) {
-            let path = paths.entry(fill.clone()).or_default();
-            for (place, corner) in cell.outline.iter().enumerate() {
-                let [x, y] = self.pixel(corner);
-                // Writing to a text cannot fail.
-                let _ = write!(path, "{}{x:.1} {y:.1}", if place == 0 { "M" } else { " " });
-            }
-            *path += "z";
+            *paths.entry(fill.clone()).or_default() += &self.path(cell);
         }
         self.paths(&paths);
+    }
+
+    /// Adds cells one over the other, in their order.
+    pub fn stacked_cells(&mut self, cells: &[MapCell], fills: &[String]) {
+        for (cell, fill) in cells.iter().zip(fills) {
+            let path = self.path(cell);
+            // The stroke closes the seams between neighbours.
+            self.svg +=
+                &format!("<path fill=\"{fill}\" stroke=\"{fill}\" stroke-width=\"0.4\" d=\"{path}\"/>");
+        }
+    }
+
+    fn path(&self, cell: &MapCell) -> String {
+        let mut path = String::new();
+        for (place, corner) in cell.outline.iter().enumerate() {
+            let [x, y] = self.pixel(corner);
+            // Writing to a text cannot fail.
+            let _ = write!(path, "{}{x:.1} {y:.1}", if place == 0 { "M" } else { " " });
+        }
+        path + "z"
     }
 
     /// Outlines all that is drawn so far, by a wider copy in black under it.

@@ -63,17 +63,7 @@ pub fn page(comparison: &Comparison, data: &str, notes: &[String]) -> Result<Str
 pub fn text(comparison: &Comparison) -> String {
     let mut text = format!("{}\n{}\n", comparison.verdict, rows(comparison));
     for table in tables(comparison) {
-        text += &format!("\n{}\n", table.caption);
-        let lines = std::iter::once(&table.header).chain(&table.rows);
-        let width = |column: usize| {
-            let cells = lines.clone().filter_map(|line| line.get(column));
-            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..table.header.len()).map(width).collect();
-        for line in lines.clone() {
-            let padded = line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}"));
-            text += &format!("  {}\n", padded.collect::<Vec<_>>().join("  ").trim_end());
-        }
+        text += &table.text();
     }
     text
 }

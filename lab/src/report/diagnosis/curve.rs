@@ -29,19 +29,7 @@ pub(super) fn figure(
         (_, true) => format!("relative change of {quantity} [1]"),
         (_, false) => format!("added to {quantity} [1]"),
     };
-    // Measured value against the extended model without the curve.
-    let points = sample.rows.iter().filter(|_| finding.observable != "outcome").filter_map(|row| {
-        let numbers = triple(row, finding.observable)?;
-        let x = axis.at(row)?;
-        let (measured, extended, adds) = (numbers[0], numbers[EXTENDED], along(&line, x)?);
-        let y = if shape.factor {
-            measured / (extended / (1.0 + adds)) - 1.0
-        } else {
-            measured - extended + adds
-        };
-        y.is_finite().then_some([x, y])
-    });
-    let points: Vec<[f64; 2]> = points.collect();
+    let points = points(diagnosis, finding, shape, &axis, &line);
     let means = Means::new(&points, axis.has_words());
     let window = Window::new(&points, line.iter().map(|point| point[1]).chain(means.reach()).chain([0.0]));
     let chart = axis.chart(&format!("Fitted curve over {}", axis.name), &label).mark_y(0.0, "");
@@ -59,6 +47,29 @@ pub(super) fn figure(
         points.len()
     );
     Some(chart.figure(&format!("curve-{id}"), &caption))
+}
+
+/// Measured value against the extended model without the curve, for each row; none for captures.
+fn points(
+    diagnosis: &Diagnosis,
+    finding: &Finding,
+    shape: &CauseCurve,
+    axis: &ColumnAxis<'_>,
+    line: &[[f64; 2]],
+) -> Vec<[f64; 2]> {
+    let rows = diagnosis.sample.rows.iter().filter(|_| finding.observable != "outcome");
+    rows.filter_map(|row| {
+        let numbers = triple(row, finding.observable)?;
+        let x = axis.at(row)?;
+        let (measured, extended, adds) = (numbers[0], numbers[EXTENDED], along(line, x)?);
+        let y = if shape.factor {
+            measured / (extended / (1.0 + adds)) - 1.0
+        } else {
+            measured - extended + adds
+        };
+        y.is_finite().then_some([x, y])
+    })
+    .collect()
 }
 
 /// A line of points at `x`, level beyond its ends.

@@ -99,6 +99,18 @@ impl<'a> SelectedRows<'a> {
         Window::new(&self.cloud(), self.measured().reach().chain(curves))
     }
 
+    /// What the error bars of the points are.
+    fn bars(&self, measured: &Means) -> &'static str {
+        let stated = |(error, _): &(f64, f64)| *error != 0.0;
+        match self.few {
+            true if !measured.errors.iter().any(stated) => "; no errors are stated.",
+            true if measured.errors.iter().all(stated) => "; bars are the stated standard errors.",
+            true => "; bars are the stated standard errors, points without a bar state none.",
+            false if self.axis.has_words() => "; points are means for each word, bars their standard errors.",
+            false => "; points are means over neighbouring rows, bars their standard errors.",
+        }
+    }
+
     fn figure(&self, window: &Window, place: usize) -> Figure {
         let (view, quantity) = (self.view, title(self.view.observable));
         let capture = view.observable == "outcome";
@@ -133,15 +145,7 @@ impl<'a> SelectedRows<'a> {
             };
         }
         let measured = self.measured();
-        caption += match self.few {
-            true if measured.errors.iter().all(|(error, _)| *error == 0.0) => "; no errors are stated.",
-            true if measured.errors.iter().any(|(error, _)| *error == 0.0) => {
-                "; bars are the stated standard errors, points without a bar state none."
-            }
-            true => "; bars are the stated standard errors.",
-            false if self.axis.has_words() => "; points are means for each word, bars their standard errors.",
-            false => "; points are means over neighbouring rows, bars their standard errors.",
-        };
+        caption += self.bars(&measured);
         if self.second.is_none() {
             caption += &agreement(&self.rows, models);
         }

@@ -37,6 +37,11 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
         let (shown, used) = (sample.rows.len(), diagnosis.rows.used);
         page.note(format!("The figures of this page show {shown} of the {used} used rows."));
     }
+    add_ranking(page, diagnosis);
+}
+
+/// The columns over which the base model fails, the worst first.
+fn add_ranking(page: &mut Page, diagnosis: &Diagnosis) {
     let row = |one: &Misfit| {
         vec![
             one.column.clone(),

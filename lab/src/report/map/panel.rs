@@ -77,14 +77,7 @@ impl<'a> Panel<'a> {
         }));
         let [across, up] = [&self.map.x, &self.map.y].map(labelled);
         picture.labelled_axes(&across, &up, true);
-        for (name, place) in &self.names {
-            let [x, y] = picture.at(*place);
-            picture.add(&format!(
-                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\" \
-                 stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
-                y + 4.5
-            ));
-        }
+        self.add_names(&mut picture);
         let [x, y] = picture.beside();
         for (place, (colour, lines)) in swatches.iter().enumerate() {
             let lines: Vec<&str> = lines.iter().map(String::as_str).collect();
@@ -101,6 +94,17 @@ impl<'a> Panel<'a> {
         }
         let height = bottom + if marks.is_empty() { 0.0 } else { LEGEND_BELOW };
         picture.figure(self.caption, [PANEL_WIDTH, height], PANEL_WIDTH)
+    }
+
+    fn add_names(&self, picture: &mut PlanePicture) {
+        for (name, place) in &self.names {
+            let [x, y] = picture.at(*place);
+            picture.add(&format!(
+                "<text x=\"{x:.2}\" y=\"{:.2}\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"bold\" \
+                 stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\">{name}</text>",
+                y + 4.5
+            ));
+        }
     }
 
     /// Width and height of a cell [px].

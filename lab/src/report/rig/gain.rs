@@ -38,6 +38,10 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
              error of the readings themselves, which no model removes.",
         );
     }
+    add_errors(page, &found.errors);
+}
+
+fn add_errors(page: &mut Page, errors: &[KindErrors]) {
     let row = |one: &KindErrors| {
         let [base, extended] = [one.rmse_base, one.rmse_extended].map(number);
         vec![words::kind(one.observable).to_owned(), one.readings.to_string(), base, extended]
@@ -46,7 +50,7 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
         "Root mean square errors on all readings, which the extended model was fitted to [1].",
         1,
         &["observable", "readings", "base model", "extended model"],
-        found.errors.iter().map(row).collect(),
+        errors.iter().map(row).collect(),
     ));
 }
 

@@ -34,22 +34,7 @@ pub(super) fn figures(found: &RigDiagnosis) -> Vec<Figure> {
 
 fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Option<Figure> {
     let held_out = rows.iter().any(|row| row.held_out.is_some());
-    let mut models = models(extends(&found.diagnosis));
-    if let (true, Some(last)) = (held_out && models.len() > 1, models.last_mut()) {
-        let unseen: ModelValue = ("extended model, experiment held out", |row| row.held_out);
-        *last = unseen;
-    }
-    let of = |value: fn(&RigRow) -> Option<f64>| {
-        let known = rows.iter().filter_map(|row| Some(([value(row)?, row.measured], bar(row))));
-        known.unzip::<[f64; 2], (f64, f64), Vec<[f64; 2]>, ErrorBars>()
-    };
-    let series: Vec<(&str, Vec<[f64; 2]>, ErrorBars)> = models
-        .iter()
-        .map(|(name, value)| {
-            let (points, errors) = of(*value);
-            (*name, points, errors)
-        })
-        .collect();
+    let series = series(found, rows, held_out);
     let all = series.iter().flat_map(|(_, points, _)| points.iter().flatten());
     let [low, high] =
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], one| [low.min(*one), high.max(*one)]);
@@ -75,7 +60,7 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
             chart.points(name, points)
         };
     }
-    let seen = seen(models.len() > 1, held_out);
+    let seen = seen(series.len() > 1, held_out);
     let caption = format!(
         "{} reading{}. The closer to the line, the better the prediction.{}{seen}",
         rows.len(),
@@ -84,6 +69,24 @@ fn figure(found: &RigDiagnosis, rows: &[&RigRow], what: &str, id: &str) -> Optio
     );
     let chart = chart.line(AGREE, &[[low, low], [high, high]]);
     Some(chart.figure(&format!("parity-{}", identifier(id)), &caption))
+}
+
+/// Predicted and measured values of each model, with the errors of the measured ones.
+type Series = (&'static str, Vec<[f64; 2]>, ErrorBars);
+
+/// The base and, where there is one, the extended model: as it predicts experiments held out where some were.
+fn series(found: &RigDiagnosis, rows: &[&RigRow], held_out: bool) -> Vec<Series> {
+    let mut models = models(extends(&found.diagnosis));
+    if let (true, Some(last)) = (held_out && models.len() > 1, models.last_mut()) {
+        let unseen: ModelValue = ("extended model, experiment held out", |row| row.held_out);
+        *last = unseen;
+    }
+    let one = |(name, value): ModelValue| {
+        let known = rows.iter().filter_map(|row| Some(([value(row)?, row.measured], bar(row))));
+        let (points, errors) = known.unzip();
+        (name, points, errors)
+    };
+    models.into_iter().map(one).collect()
 }
 
 /// Edges of both axes: room for the markers at the ends, but none beyond zero and one where no value is there.

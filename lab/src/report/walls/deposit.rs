@@ -9,9 +9,58 @@ use crate::results::openfoam::deposit::{DepositState, value};
 /// Relative change of a column over time from which on it is drawn [1].
 const LEAST_CHANGE: f64 = 1e-3;
 
+/// A quantity of a wall over time: mean and maximum.
+struct OverTime {
+    id: &'static str,
+    title: &'static str,
+    y_label: &'static str,
+    columns: [&'static str; 2],
+    /// Drawn even where it does not change.
+    always: bool,
+    caption: &'static str,
+}
+
+const OVER_TIME: [OverTime; 4] = [
+    OverTime {
+        id: "wall-coverage",
+        title: "Share of the wall covered by powder",
+        y_label: "coverage [1]",
+        columns: ["coverage_mean", "coverage_max"],
+        always: true,
+        caption: "Mean over the area of the wall, and the face or bin with the largest coverage. Covered area is not \
+                  sticky.",
+    },
+    OverTime {
+        id: "wall-layer",
+        title: "Powder on the wall",
+        y_label: "thickness of the layer [m]",
+        columns: ["layer_thickness_mean_m", "layer_thickness_max_m"],
+        always: true,
+        caption: "Mean over the area of the wall, and the thickest face or bin, with the powder spread evenly on it. \
+                  Powder damps rebounds.",
+    },
+    OverTime {
+        id: "wall-temperature",
+        title: "Surface of the deposit",
+        y_label: "temperature [K]",
+        columns: ["wall_temperature_mean_K", "wall_temperature_max_K"],
+        always: false,
+        caption: "Mean over the area of the wall, and the hottest face or bin: what impacts meet.",
+    },
+    OverTime {
+        id: "wall-heat-flux",
+        title: "Heat through the wall",
+        y_label: "heat flux [W/m²]",
+        columns: ["heat_flux_mean_W_m2", "heat_flux_max_W_m2"],
+        always: false,
+        caption: "Into the coolant; mean over the area of the wall, and the face or bin with the largest flux.",
+    },
+];
+
 pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let all = comparison.each().flat_map(|(label, run)| run.deposits.iter().map(move |wall| (label, wall)));
-    let walls: Vec<(&String, &History<DepositState>)> = all.filter(|(_, wall)| is_something(wall)).collect();
+    let walls: Vec<(&String, &History<DepositState>)> =
+        all.filter(|(_, wall)| is_something(wall) && !comparison.few.contains(&wall.wall)).collect();
     // A single run needs no name.
     let single = comparison.is_single();
     let titled = |(label, wall): &(&String, &History<DepositState>)| {
@@ -35,33 +84,14 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
                 .line(&format!("{name}, maximum"), &line(wall, most))
         })
     };
-    let coverage =
-        over_time("Share of the wall covered by powder", "coverage [1]", ["coverage_mean", "coverage_max"]);
-    figures.push(coverage.figure(
-        "wall-coverage",
-        "Mean over the area of the wall, and the face or bin with the largest coverage. Covered area is not sticky.",
-    ));
-    let thickness = ["layer_thickness_mean_m", "layer_thickness_max_m"];
-    figures.push(over_time("Powder on the wall", "thickness of the layer [m]", thickness).figure(
-        "wall-layer",
-        "Mean over the area of the wall, and the thickest face or bin, with the powder spread evenly on it. Powder damps \
-         rebounds.",
-    ));
-    let any_changes = |column: &str| walls.iter().any(|(_, wall)| changes(wall, column));
-    let temperature = ["wall_temperature_mean_K", "wall_temperature_max_K"];
-    if any_changes(temperature[0]) {
-        figures.push(over_time("Surface of the deposit", "temperature [K]", temperature).figure(
-            "wall-temperature",
-            "Mean over the area of the wall, and the hottest face or bin: what impacts meet.",
-        ));
-    }
-    let flux = ["heat_flux_mean_W_m2", "heat_flux_max_W_m2"];
-    if any_changes(flux[0]) {
-        figures.push(over_time("Heat through the wall", "heat flux [W/m²]", flux).figure(
-            "wall-heat-flux",
-            "Into the coolant; mean over the area of the wall, and the face or bin with the largest flux.",
-        ));
-    }
+    let drawn = OVER_TIME
+        .iter()
+        .filter(|drawn| drawn.always || walls.iter().any(|(_, wall)| changes(wall, drawn.columns[0])));
+    figures.extend(
+        drawn.map(|drawn| {
+            over_time(drawn.title, drawn.y_label, drawn.columns).figure(drawn.id, drawn.caption)
+        }),
+    );
     figures
 }
 

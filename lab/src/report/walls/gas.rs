@@ -40,15 +40,11 @@ fn picture(run: &RunResults, gas: &GasCut, id: &str, title: &str) -> Option<Figu
     let shown = gas.shown();
     let every = shown.len().div_ceil(MOST_DOTS).max(1);
     let dots: Vec<([f64; 2], f64)> = shown.iter().copied().step_by(every).collect();
-    let of = |values: &mut dyn Iterator<Item = f64>| {
-        let [low, high] = widened(range(values.filter(|value| value.is_finite())));
-        ColourScale::new(low, high)
-    };
-    let gas_scale = of(&mut cells.iter().map(|cell| cell.value)).with(Palette::Heat);
+    let gas_scale = scale_of(&mut cells.iter().map(|cell| cell.value)).with(Palette::Heat);
     let parcels = gas.coloured_by.filter(|_| !dots.is_empty()).map(|quantity| {
         let scale = match quantity {
             ParcelQuantity::Conversion => ColourScale::new(0.0, 1.0),
-            ParcelQuantity::Temperature => of(&mut dots.iter().map(|(_, value)| *value)),
+            ParcelQuantity::Temperature => scale_of(&mut dots.iter().map(|(_, value)| *value)),
         };
         (scale.with(Palette::CharToAsh), format!("{} [{}]", quantity.name(), quantity.unit()))
     });
@@ -76,6 +72,11 @@ fn picture(run: &RunResults, gas: &GasCut, id: &str, title: &str) -> Option<Figu
     let used = used + bars * COLUMN_WIDTH;
     let size = [used.max(LEAST_WIDTH), below.max(LEAST_GAS_HEIGHT)];
     Some(picture.figure(&caption(run, gas, [cells.len(), shown.len(), every]), size, used))
+}
+
+fn scale_of(values: &mut dyn Iterator<Item = f64>) -> ColourScale {
+    let [low, high] = widened(range(values.filter(|value| value.is_finite())));
+    ColourScale::new(low, high)
 }
 
 /// Ends of a scale that differ: around a single value by a thousandth of it.

@@ -11,6 +11,7 @@ mod deposit;
 mod gas;
 mod injections;
 mod near_wall;
+mod opening;
 mod places;
 mod rebound;
 mod surfaces;
@@ -41,6 +42,9 @@ const SECTIONS: [PageSection; 8] = [
 const LAST_SECTIONS: [PageSection; 2] =
     [("Which injection is captured", &[], injections::table), ("Balance", &[], balance::table)];
 
+/// Hits of a wall from which on it has figures.
+const FEW_HITS: u64 = 30;
+
 type PageSection =
     (&'static str, &'static [fn(&RunComparison<'_>) -> Vec<Figure>], fn(&RunComparison<'_>) -> Option<Table>);
 
@@ -56,6 +60,7 @@ pub fn openfoam_page(runs: &[RunResults]) -> Result<String, askama::Error> {
     let comparison = RunComparison::new(runs);
     let mut page = Page::new(&verdict::title(&comparison));
     page.lead(verdict::lead(&comparison));
+    page.figures(opening::figures(&comparison));
     comparison.add_to(&mut page);
     page.heading("Sources");
     page.text("The tables of nearWallInteraction give its hits, captures, regimes, conversions and balance. The stock models \
@@ -94,20 +99,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
              The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
         page.table(table);
     }
-    page.heading("How this was computed");
-    page.text("Particles move alone in a prescribed, steady gas: drag of Schiller and Naumann, weight, convective heat of Ranz \
-         and Marshall, and the stated law of carbon conversion. There is no turbulence and no action on the gas. A \
-         particle touches a wall with its surface, half a diameter from its centre. The impact model decides each hit; \
-         its random draw depends only on seed, particle and hit number.");
-    if let Some(deposit) = &case.deposit {
-        page.text(format!(
-            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
-             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
-             temperature of the wall. deposit.csv has every wall, bin and time.",
-            number(deposit.duration),
-            deposit.steps
-        ));
-    }
+    add_method(&mut page, case);
     if left_out > 0 {
         page.note(format!(
             "impacts.csv contains all hits of the first particles (of each value of a sweep), at most {} rows; \
@@ -117,6 +109,34 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
     }
     page.foot(&format!("Seed {}, {} particles.", case.seed, case.count()));
     page.html()
+}
+
+/// What moves the particles, and how a deposit grows.
+fn add_method(page: &mut Page, case: &Case) {
+    page.heading("How this was computed");
+    let gas = &case.gas;
+    let also = [
+        (gas.turbulence.is_some(), ", a normalised Langevin walk for the turbulence"),
+        (gas.thermophoresis, ", thermophoresis"),
+        (gas.brownian, ", Brownian motion"),
+    ];
+    let also: String = also.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| *what).collect();
+    let without = if gas.turbulence.is_some() { "" } else { " There is no turbulence." };
+    page.text(format!(
+        "Particles move alone in a prescribed, steady gas that they do not act on: drag of Schiller and Naumann, weight{also}, \
+         convective heat of Ranz and Marshall, and the stated law of carbon conversion.{without} A particle touches a wall \
+         with its surface, half a diameter from its centre. The impact model decides each hit; its random draw depends \
+         only on seed, particle and hit number."
+    ));
+    if let Some(deposit) = &case.deposit {
+        page.text(format!(
+            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
+             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
+             temperature of the wall. deposit.csv has every wall, bin and time.",
+            number(deposit.duration),
+            deposit.steps
+        ));
+    }
 }
 
 /// The bands of the captures; `None` without drawn models.
@@ -152,6 +172,8 @@ struct RunComparison<'a> {
     runs: &'a [RunResults],
     labels: Vec<String>,
     walls: Vec<String>,
+    /// Walls with fewer than [`FEW_HITS`] hits, which get a line and no figures.
+    few: Vec<String>,
     /// The last time that all runs have reached [s].
     time: f64,
 }
@@ -166,9 +188,33 @@ struct Series<'a> {
 impl<'a> RunComparison<'a> {
     fn new(runs: &'a [RunResults]) -> Self {
         let time = common_time(runs.iter());
-        let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), time };
+        let mut comparison = Self { runs, labels: labels(runs), walls: Vec::new(), few: Vec::new(), time };
         comparison.walls = comparison.find_walls();
+        comparison.set_few_aside();
         comparison
+    }
+
+    /// Most hits of a wall in a run; `None` where they are not counted.
+    fn most_hits(&self, wall: &str) -> Option<u64> {
+        self.runs.iter().filter_map(|run| run.arrived(wall, self.time)).map(|(hits, _)| hits.count).max()
+    }
+
+    /// Takes walls with few hits from the figures, unless all have few.
+    fn set_few_aside(&mut self) {
+        let walls = std::mem::take(&mut self.walls);
+        let is_few = |wall: &String| self.most_hits(wall).is_some_and(|hits| hits < FEW_HITS);
+        let (few, many): (Vec<_>, Vec<_>) = walls.into_iter().partition(is_few);
+        (self.few, self.walls) = if many.is_empty() { (Vec::new(), few) } else { (few, many) };
+    }
+
+    /// The walls with few hits, in a sentence.
+    fn few_words(&self) -> Option<String> {
+        let hits = |wall: &String| format!("{wall} ({})", self.most_hits(wall).unwrap_or(0));
+        let walls: Vec<String> = self.few.iter().map(hits).collect();
+        let at_most = if self.is_single() { "" } else { ", the most of a case" };
+        (!walls.is_empty()).then(|| {
+            format!("Walls with fewer than {FEW_HITS} hits{at_most}, in no figure: {}.", walls.join(", "))
+        })
     }
 
     /// The walls of a standalone case in its order. Of OpenFOAM cases those walls of the mesh, or,
@@ -201,6 +247,9 @@ impl<'a> RunComparison<'a> {
 
     fn add_to(&self, page: &mut Page) {
         page.verdict(verdict::lines(self));
+        if let Some(words) = self.few_words() {
+            page.text(words);
+        }
         for (label, run) in self.each() {
             if let Some((count, reason)) = &run.trouble {
                 let of = if self.is_single() { String::new() } else { format!(" of {label}") };

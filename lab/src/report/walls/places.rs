@@ -143,17 +143,11 @@ pub(super) fn scatter(comparison: &RunComparison<'_>) -> Vec<Figure> {
     } else {
         (format!("{} [m]", AXES[across]), "seen from the side")
     };
-    let mut figures = Vec::new();
-    for (number, (label, run)) in
-        comparison.each().enumerate().filter(|(_, (_, run))| !run.captures.is_empty())
-    {
-        let points: Vec<[f64; 2]> = run
-            .captures
-            .iter()
-            .map(|Capture { position: p, .. }| {
-                [p[axis], if round { p[second].atan2(p[first]).to_degrees() } else { p[across] }]
-            })
-            .collect();
+    let place = |Capture { position: p, .. }: &Capture| {
+        [p[axis], if round { p[second].atan2(p[first]).to_degrees() } else { p[across] }]
+    };
+    let figure = |(number, (label, run)): (usize, (&String, &RunResults))| {
+        let points: Vec<[f64; 2]> = run.captures.iter().map(place).collect();
         let title = format!("Captured parcels, {label}");
         let [low, high] = extent(axis);
         let chart =
@@ -168,9 +162,10 @@ pub(super) fn scatter(comparison: &RunComparison<'_>) -> Vec<Figure> {
             chart
         };
         let caption = format!("{} parcels, one point each; {view}.", points.len());
-        figures.push(chart.figure(&format!("places-{number}"), &caption));
-    }
-    figures
+        chart.figure(&format!("places-{number}"), &caption)
+    };
+    let with_captures = comparison.each().enumerate().filter(|(_, (_, run))| !run.captures.is_empty());
+    with_captures.map(figure).collect()
 }
 
 /// The direction in which captured parcels spread most: 0, 1, 2 for x, y, z.

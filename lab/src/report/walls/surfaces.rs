@@ -32,6 +32,9 @@ pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
     );
     for (place, (label, run)) in comparison.each().enumerate() {
         for (count, wall) in run.surfaces.iter().enumerate() {
+            if comparison.few.contains(&wall.wall) {
+                continue;
+            }
             let name =
                 if comparison.is_single() { wall.wall.clone() } else { format!("{}, {label}", wall.wall) };
             page.subheading(format!("{name}, {}", when(run, wall)));
@@ -177,7 +180,7 @@ fn regimes(wall: &WallSurface, unrolled: &Unrolled, id: &str) -> Option<(Figure,
 }
 
 /// The ends of the scale: from zero for what piles up, or nearly so, and without a few far larger values.
-fn scale_ends(quantity: SurfaceQuantity, cells: &[MapCell]) -> [f64; 2] {
+pub(super) fn scale_ends(quantity: SurfaceQuantity, cells: &[MapCell]) -> [f64; 2] {
     let finite = || cells.iter().filter(|cell| cell.value.is_finite());
     let [low, high] = range(finite().map(|cell| cell.value));
     let from_low = match quantity {

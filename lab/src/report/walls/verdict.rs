@@ -1,8 +1,9 @@
 //! The title and the sentences at the top of the page.
 
 use super::{RunComparison, RunResults, WallModel, number, percent};
-use crate::results::{ByConversion, share};
+use crate::results::{ByConversion, share, wilson};
 use nearwall::impact::Regime;
+use std::iter;
 
 /// Conversion below which carbon still covers the ash of captured char (Troiano et al.: threshold 0.88 to 0.90).
 const RAW: f64 = 0.8;
@@ -30,48 +31,47 @@ pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
 
 /// At most four sentences, however many runs there are.
 pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
-    let own = || comparison.each().filter(|(_, run)| run.is_ours());
-    let mut lines = Vec::new();
     if let [run] = comparison.runs {
-        lines.push(single(comparison, run));
-        lines.extend(busiest(comparison, run));
-    } else {
-        let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
-        let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
-        lines.push(format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", ")));
-        let regimes: Vec<String> = own()
-            .filter_map(|(label, run)| {
-                let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
-                Some(format!(
-                    "{} of the captured mass of {label} is caught as {}",
-                    percent(share),
-                    regime.name()
-                ))
-            })
-            .collect();
-        // A stock model is compared with the first run of the same cloud with our model.
-        let first = |label: &str, run: &RunResults| {
-            own().find(|(_, o)| o.cloud == run.cloud).is_some_and(|(l, _)| l == label)
-        };
-        let beside: Vec<String> = own()
-            .filter(|(label, run)| first(label, run))
-            .filter_map(|(label, run)| beside_stock(comparison, label, run))
-            .collect();
-        lines.extend(
-            [regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."),
-        );
+        let sentences = [busiest(comparison, run), reason(comparison, run), certainty(comparison, run)];
+        return iter::once(single(comparison, run)).chain(sentences.into_iter().flatten()).collect();
     }
+    let mut lines = several(comparison);
     let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
     let raw: Vec<String> = comparison
         .each()
         .filter_map(|(label, run)| {
             let share = percent(raw_share(&run.captured_by_conversion(&walls, comparison.time)?));
-            Some(if comparison.is_single() { share } else { format!("{share} of {label}") })
+            Some(format!("{share} of {label}"))
         })
         .collect();
     if !raw.is_empty() {
         lines.push(format!("Captured mass with a conversion below {RAW} at capture: {}.", raw.join(", ")));
     }
+    lines
+}
+
+/// What several runs capture, in which regimes, and what stock models say beside them.
+fn several(comparison: &RunComparison<'_>) -> Vec<String> {
+    let own = || comparison.each().filter(|(_, run)| run.is_ours());
+    let share = |run: &RunResults| share(run.captured_mass(comparison.time), comparison.injected(run));
+    let totals = comparison.each().map(|(label, run)| format!("{label} {}", percent(share(run))));
+    let mut lines =
+        vec![format!("Captured of the injected mass: {}.", totals.collect::<Vec<_>>().join(", "))];
+    let regimes: Vec<String> = own()
+        .filter_map(|(label, run)| {
+            let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
+            Some(format!("{} of the captured mass of {label} is caught as {}", percent(share), regime.name()))
+        })
+        .collect();
+    // A stock model is compared with the first run of the same cloud with our model.
+    let first = |label: &str, run: &RunResults| {
+        own().find(|(_, o)| o.cloud == run.cloud).is_some_and(|(l, _)| l == label)
+    };
+    let beside: Vec<String> = own()
+        .filter(|(label, run)| first(label, run))
+        .filter_map(|(label, run)| beside_stock(comparison, label, run))
+        .collect();
+    lines.extend([regimes, beside].iter().filter(|list| !list.is_empty()).map(|list| list.join("; ") + "."));
     lines
 }
 
@@ -89,10 +89,58 @@ fn single(comparison: &RunComparison<'_>, run: &RunResults) -> String {
     parts.join(", ") + "."
 }
 
+fn busiest_wall<'a>(comparison: &'a RunComparison<'_>, run: &RunResults) -> Option<&'a String> {
+    let mass = |wall: &String| run.captured(wall, comparison.time).map_or(0.0, |amount| amount.mass());
+    comparison.walls.iter().max_by(|a, b| mass(a).total_cmp(&mass(b)))
+}
+
+/// Why it is captured: the regime of most of it, and how much of it is raw.
+fn reason(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
+    let (regime, share) = main_regime(comparison, run, &comparison.walls)?;
+    let mut text = format!("{} of the captured mass is caught as {}", percent(share), regime_words(regime));
+    let walls: Vec<&str> = comparison.walls.iter().map(String::as_str).collect();
+    if let Some(masses) = run.captured_by_conversion(&walls, comparison.time) {
+        text += &format!("; {} has a conversion below {RAW} at capture", percent(raw_share(&masses)));
+    }
+    Some(text + ".")
+}
+
+fn regime_words(regime: Regime) -> String {
+    let what = match regime {
+        Regime::NspNsw => "non-sticky particles on a non-sticky wall",
+        Regime::NspSw => "non-sticky particles on a sticky wall",
+        Regime::SpNsw => "sticky particles on a non-sticky wall",
+        Regime::SpSw => "sticky particles on a sticky wall",
+    };
+    format!("{} ({what})", regime.name())
+}
+
+/// How sure the share of captures at the busiest wall is, and how many hits leave a stated range.
+fn certainty(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
+    let wall = busiest_wall(comparison, run)?;
+    let totals = comparison.totals(run, wall)?;
+    let hits = run.arrived(wall, comparison.time).map(|(hits, _)| hits.count).filter(|hits| *hits > 0)?;
+    let [low, high] = wilson(share(totals.captured.count as f64, hits as f64), hits as f64).map(percent);
+    let mut text = format!(
+        "With {hits} hits, chance alone leaves {low} to {high} for the share captured by {wall} (95 %, independent hits)"
+    );
+    let outside = comparison.walls.iter().filter_map(|wall| {
+        let totals = comparison.totals(run, wall)?;
+        Some([totals.outside_range? as f64, totals.hits?.count as f64])
+    });
+    let [outside, all] = outside.fold([0.0; 2], |[a, b], [c, d]| [a + c, b + d]);
+    if all > 0.0 {
+        text += &format!(
+            "; {} of all hits use a property or law outside of its stated range",
+            percent(outside / all)
+        );
+    }
+    Some(text + ".")
+}
+
 /// The wall that captures most.
 fn busiest(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
-    let mass = |wall: &String| run.captured(wall, comparison.time).map_or(0.0, |amount| amount.mass());
-    let wall = comparison.walls.iter().max_by(|a, b| mass(a).total_cmp(&mass(b)))?;
+    let wall = busiest_wall(comparison, run)?;
     let totals = comparison.totals(run, wall)?;
     let hits = run.arrived(wall, comparison.time).map(|(hits, _)| hits.count);
     let share = hits.map(|hits| (percent(share(totals.captured.count as f64, hits as f64)), hits));
@@ -101,9 +149,6 @@ fn busiest(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
         Some((share, hits)) => format!("Most is captured by {wall}: {share} of its {hits} hits"),
         None => format!("Most is captured by {wall}"),
     };
-    if let Some((regime, _)) = main_regime(comparison, run, std::slice::from_ref(wall)) {
-        text += &format!(", mainly in the regime {}", regime.name());
-    }
     if run.has_carbon && totals.captured_conversion.count > 0 {
         text += &format!(", at a mean conversion of {}", number(totals.captured_conversion.mean));
     }

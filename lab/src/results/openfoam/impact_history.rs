@@ -279,16 +279,7 @@ pub fn read(
             read.map_err(|(line, reason)| HistoryError::ImpactRow { file: file.clone(), line, reason })?;
         parcels.entry(id).or_default().push(impact);
     }
-    let mut histories = Vec::with_capacity(parcels.len());
-    for (id, mut impacts) in parcels {
-        // Stable: the record has impacts at one instant in their order.
-        impacts.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.age.total_cmp(&b.age)));
-        let captured = impacts.iter().position(|impact| impact.decision == Decision::Captured);
-        if let Some(later) = captured.and_then(|index| impacts.get(index + 1)) {
-            return Err(HistoryError::SharedIdentity { file, line: later.line, parcel: id });
-        }
-        histories.push(ParcelHistory { id, impacts });
-    }
+    let histories = histories(parcels, &file)?;
     let mut history = ImpactHistory {
         file,
         cloud: String::new(),
@@ -302,6 +293,25 @@ pub fn read(
     };
     add_tables(&mut history);
     Ok(history)
+}
+
+/// The impacts of each parcel in the order of time.
+fn histories(
+    parcels: BTreeMap<ParcelId, Vec<RecordedImpact>>,
+    file: &Path,
+) -> Result<Vec<ParcelHistory>, HistoryError> {
+    let history = |(id, mut impacts): (ParcelId, Vec<RecordedImpact>)| {
+        // Stable: the record has impacts at one instant in their order.
+        impacts.sort_by(|a, b| a.time.total_cmp(&b.time).then(a.age.total_cmp(&b.age)));
+        let captured = impacts.iter().position(|impact| impact.decision == Decision::Captured);
+        match captured.and_then(|index| impacts.get(index + 1)) {
+            Some(later) => {
+                Err(HistoryError::SharedIdentity { file: file.to_owned(), line: later.line, parcel: id })
+            }
+            None => Ok(ParcelHistory { id, impacts }),
+        }
+    };
+    parcels.into_iter().map(history).collect()
 }
 
 /// The fraction that the first line states, and the line of the header.

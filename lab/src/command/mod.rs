@@ -1,8 +1,11 @@
-//! The command `nearwall`: one file for each subcommand. This file selects it and prints errors.
+//! The command `nearwall`: one file for each subcommand. This file selects it and prints errors. The binary and the Python
+//! package call [`run`].
 
+mod bench;
 mod check;
 mod compare;
 mod diagnose;
+mod init;
 mod map;
 mod materials;
 mod predict;
@@ -11,6 +14,7 @@ mod report;
 mod sensitivity;
 mod simulate;
 
+use std::ffi::OsString;
 use std::io::Write;
 use std::path::Path;
 
@@ -36,9 +40,11 @@ macro_rules! subcommands {
 }
 
 subcommands! {
+    Init: init,
     Predict: predict,
     Diagnose: diagnose,
     Compare: compare,
+    Bench: bench,
     Simulate: simulate,
     Sensitivity: sensitivity,
     Map: map,
@@ -47,14 +53,23 @@ subcommands! {
     Check: check,
 }
 
-/// Exit status 0: done, 1: the input is at fault, 2: wrong usage (from clap).
-fn main() -> std::process::ExitCode {
-    match Command::parse().run() {
-        Ok(()) => std::process::ExitCode::SUCCESS,
-        Err(error) if is_broken_pipe(error.as_ref()) => std::process::ExitCode::SUCCESS,
+/// Runs the command with its arguments, of which the first is its own name, and returns its exit status. 0: done, 1: the
+/// input is at fault, 2: wrong usage.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    let command = match Command::try_parse_from(arguments) {
+        Ok(command) => command,
+        Err(usage) => {
+            // A closed pipe is no fault of the usage.
+            let _ = usage.print();
+            return u8::try_from(usage.exit_code()).unwrap_or(2);
+        }
+    };
+    match command.run() {
+        Ok(()) => 0,
+        Err(error) if is_broken_pipe(error.as_ref()) => 0,
         Err(error) => {
             eprintln!("nearwall: {error}");
-            std::process::ExitCode::FAILURE
+            1
         }
     }
 }

@@ -4,17 +4,17 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::{make_folder, write_texts};
+use crate::dataset::RigMeasurements;
+use crate::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
+use crate::diagnose::{Diagnosis, ImpactDiagnosis, Options, Reach};
+use crate::report::{RigPage, RigSource, diagnosis_page, rig_page};
+use crate::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig};
 use indicatif::ProgressBar;
 use nearwall::Model;
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::{make_folder, write_texts};
-use nearwall_lab::dataset::RigMeasurements;
-use nearwall_lab::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
-use nearwall_lab::diagnose::{Diagnosis, ImpactDiagnosis, Options, Reach};
-use nearwall_lab::report::{RigPage, RigSource, diagnosis_page, rig_page};
-use nearwall_lab::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig};
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
@@ -99,7 +99,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     let bar = progress::bytes(source.metadata().map_or(0, |data| data.len()), "reading");
     let data = diagnosis.read(&file, bar.wrap_read(source))?;
     bar.finish_and_clear();
-    crate::note(&data.notes);
+    super::note(&data.notes);
     let bar = progress::spinner("candidates tested");
     let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|what| tried(&bar, what))?;
     bar.finish_and_clear();
@@ -107,7 +107,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
     }
     write_impacts(arguments, file_of_model, &diagnosis, &extended, &draws)?;
-    crate::print_page(&summary(&diagnosis), &arguments.out.join("report.html"))
+    super::print_page(&summary(&diagnosis), &arguments.out.join("report.html"))
 }
 
 /// Diagnoses the readings of a rig that a case of `nearwall simulate` describes.
@@ -121,7 +121,7 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
     write_rig(arguments, &[case], source, &found)?;
-    crate::print_page(&summary(&found.diagnosis), &arguments.out.join("report.html"))
+    super::print_page(&summary(&found.diagnosis), &arguments.out.join("report.html"))
 }
 
 /// Diagnoses with the impacts that OpenFOAM recorded below `folder`, in runs with the model file `model`.
@@ -130,7 +130,7 @@ fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandRe
     let document = Document::from_file(model)?;
     let base = Model::from_toml(document.name(), document.text())?;
     let forward = ReplayedRig::new(folder, &data, &base)?;
-    crate::note(forward.notes());
+    super::note(forward.notes());
     data.notes.extend_from_slice(forward.notes());
     let mut found = diagnosed(arguments, &forward, &data, document.text(), None)?;
     let limits = forward.account_notes(&Model::from_toml("extended.toml", &found.extended)?)?;
@@ -138,7 +138,7 @@ fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandRe
     let [folder, file] = [folder, model].map(|path| path.display().to_string());
     write_rig(arguments, &[model], RigSource::Recorded { folder: &folder, model: &file }, &found)?;
     let limits: String = limits.iter().map(|note| format!("{note}\n")).collect();
-    crate::print_page(&(limits + &summary(&found.diagnosis)), &arguments.out.join("report.html"))
+    super::print_page(&(limits + &summary(&found.diagnosis)), &arguments.out.join("report.html"))
 }
 
 /// Reads the readings of the rig.
@@ -146,7 +146,7 @@ fn read_rig(arguments: &Arguments) -> Result<RigMeasurements, Box<dyn std::error
     let file = arguments.data.display().to_string();
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let data = RigMeasurements::read(&file, source)?;
-    crate::note(&data.notes);
+    super::note(&data.notes);
     Ok(data)
 }
 

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::{AtomicFile, WriteError, make_folder};
-use nearwall_lab::report::{number, percent, sensitivity_page};
-use nearwall_lab::rig::CaseText;
-use nearwall_lab::rig::sensitivity::{Quality, Sensitivity, SensitivityCase};
+use crate::atomic_file::{AtomicFile, WriteError, make_folder};
+use crate::report::{number, percent, sensitivity_page};
+use crate::rig::CaseText;
+use crate::rig::sensitivity::{Quality, Sensitivity, SensitivityCase};
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Ranks the numbers of a case by their effect on what its walls capture
 #[derive(clap::Args)]
@@ -47,8 +47,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     }
     text.change("--set", &settings)?;
     let case = SensitivityCase::new(text, arguments.particles.max(1), arguments.clean_walls);
-    let at_case =
-        |error: nearwall_lab::rig::PredictionError| format!("{}: {error}", arguments.case.display());
+    let at_case = |error: crate::rig::PredictionError| format!("{}: {error}", arguments.case.display());
     let case = case.map_err(at_case)?;
     let bar = progress::count(case.count() as u64, "numbers");
     let found = case.run(&|| bar.inc(1)).map_err(at_case)?;
@@ -59,8 +58,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     };
     let folder = arguments.output.clone().unwrap_or_else(beside);
     write(&found, &folder, &arguments.case)?;
-    crate::note(&found.notes);
-    crate::print_page(&table(&found), &folder.join("report.html"))
+    super::note(&found.notes);
+    super::print_page(&table(&found), &folder.join("report.html"))
 }
 
 fn table(found: &Sensitivity) -> String {

@@ -4,17 +4,15 @@ use std::fs::File;
 use std::io::{ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::{AtomicFile, WriteError};
+use crate::dataset::{BadRow, DatasetError, ImpactReader, ImpactRow};
+use crate::predict::{BANDS, BEYOND, CONTACT_TIME, PredictedRow, Predictor, RowNotes, VALUES, file_notes};
 use nearwall::effect::stream;
 use nearwall::impact::INPUTS;
 use nearwall::{ImpactRng, Model};
-use nearwall_lab::atomic_file::{AtomicFile, WriteError};
-use nearwall_lab::dataset::{BadRow, DatasetError, ImpactReader, ImpactRow};
-use nearwall_lab::predict::{
-    BANDS, BEYOND, CONTACT_TIME, PredictedRow, Predictor, RowNotes, VALUES, file_notes,
-};
 use rayon::prelude::*;
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Adds the model's e_n, e_t, p_stick and regime, and the stated ranges that it leaves, to each impact
 #[derive(clap::Args)]
@@ -66,7 +64,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if let Some(line) = arguments.explain {
         return explain(&predictor, &mut reader, line);
     }
-    crate::note(file_notes(&file, &reader));
+    super::note(file_notes(&file, &reader));
     if let Some(folder) = &arguments.draws {
         predictor.read_draws(folder)?;
     }
@@ -234,8 +232,8 @@ fn write_row(
 
 /// Prints the notes about all rows.
 fn report(notes: &RowNotes) -> CommandResult {
-    crate::note(notes.warnings());
-    crate::note(notes.outside_range());
+    super::note(notes.warnings());
+    super::note(notes.outside_range());
     let (predicted, left_out) = (notes.predicted(), notes.left_out());
     if left_out > 0 {
         eprintln!("nearwall: {predicted} rows predicted, {left_out} left out");
@@ -277,7 +275,7 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
                 for entry in entries {
                     text += &format!("{:<24} {:<22} {:.6}\n", entry.term, entry.quantity, entry.value);
                 }
-                return crate::print(&text);
+                return super::print(&text);
             }
             _ => {}
         }

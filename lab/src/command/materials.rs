@@ -4,7 +4,7 @@ use nearwall::input::unknown;
 use nearwall::material::{Library, Material, built_in_toml};
 use nearwall::slag::surface_tension;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// Lists the built-in materials, or shows one with its sources
 #[derive(clap::Args)]
@@ -33,15 +33,15 @@ pub fn run(arguments: &Arguments) -> CommandResult {
             let about = library.get(name).and_then(Material::about).unwrap_or("");
             format!("{name:<26} {about}\n")
         };
-        return crate::print(&library.names().iter().map(line).collect::<String>());
+        return super::print(&library.names().iter().map(line).collect::<String>());
     };
     let Some(material) = library.get(name) else {
         return Err(unknown(name, "material", &library.names()).into());
     };
     if arguments.toml {
-        return crate::print(&built_in_toml(name).unwrap_or_default());
+        return super::print(&built_in_toml(name).unwrap_or_default());
     }
-    crate::print(&show(material, arguments.temperature))
+    super::print(&show(material, arguments.temperature))
 }
 
 /// Six digits; powers of ten where they are needed.

@@ -2,14 +2,14 @@
 
 use std::path::PathBuf;
 
+use crate::atomic_file::write_texts;
+use crate::dataset::WallChoice;
+use crate::map::{Cell, DEFAULT_POINTS, InputAxis, Map, Setting, default_axes};
+use crate::report::map_page;
 use nearwall::Model;
 use nearwall::impact::{INPUTS, Impact};
-use nearwall_lab::atomic_file::write_texts;
-use nearwall_lab::dataset::WallChoice;
-use nearwall_lab::map::{Cell, DEFAULT_POINTS, InputAxis, Map, Setting, default_axes};
-use nearwall_lab::report::map_page;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// Draws e_n, e_t, sticking probability and regime over any two inputs
 #[derive(clap::Args)]
@@ -60,7 +60,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         );
     }
     write(arguments, &map)?;
-    crate::print_page(&summary(&map), &arguments.output.join("map.html"))
+    super::print_page(&summary(&map), &arguments.output.join("map.html"))
 }
 
 /// The inputs that are the same in all impacts.

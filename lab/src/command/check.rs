@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use nearwall::Model;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// Checks a model file and describes its content
 #[derive(clap::Args)]
@@ -19,5 +19,5 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let mut lines = vec![format!("{}: accepted", arguments.model.display())];
     lines.extend(model.describe().into_iter().map(|(what, text)| format!("  {what:<11} {text}")));
     lines.push(String::new());
-    crate::print(&lines.join("\n"))
+    super::print(&lines.join("\n"))
 }

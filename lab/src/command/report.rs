@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::AtomicFile;
-use nearwall_lab::report::{openfoam_page, sweep};
-use nearwall_lab::results::openfoam;
+use crate::atomic_file::AtomicFile;
+use crate::report::{openfoam_page, sweep};
+use crate::results::openfoam;
 
-use crate::CommandResult;
+use super::CommandResult;
 
 /// Plots finished OpenFOAM cases, one or several side by side
 #[derive(clap::Args)]
@@ -45,5 +45,5 @@ fn write(output: &Path, inputs: &[&Path], page: &str) -> CommandResult {
     let mut file = AtomicFile::new(output, inputs)?;
     file.put(page)?;
     AtomicFile::commit([file])?;
-    crate::print_page("", output)
+    super::print_page("", output)
 }

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use nearwall_lab::atomic_file::{AtomicFile, WriteError, make_folder};
-use nearwall_lab::report::{number, percent, standalone_page};
-use nearwall_lab::results::share;
-use nearwall_lab::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
-use nearwall_lab::rig::{CaptureBand, DrawnModels, add_capture_bands};
-use nearwall_lab::simulate::Case;
+use crate::atomic_file::{AtomicFile, WriteError, make_folder};
+use crate::report::{number, percent, standalone_page};
+use crate::results::share;
+use crate::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
+use crate::rig::{CaptureBand, DrawnModels, add_capture_bands};
+use crate::simulate::Case;
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Follows particles through a prescribed gas until walls capture them or they leave
 #[derive(clap::Args)]
@@ -35,9 +35,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let draws =
         arguments.draws.as_deref().map(|draws| DrawnModels::from_folder(draws, &case.model)).transpose()?;
     let runs = write(&mut case, &folder, draws.as_ref())?;
-    crate::note(runs.iter().filter_map(|run| run.totals.trouble_note()));
+    super::note(runs.iter().filter_map(|run| run.totals.trouble_note()));
     let text: String = runs.iter().map(|run| summary_of_run(&case, run)).collect();
-    crate::print_page(&text, &folder.join("report.html"))
+    super::print_page(&text, &folder.join("report.html"))
 }
 
 /// The particles of a run and, with drawn models, the bands of what its walls capture.

@@ -3,14 +3,14 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use crate::atomic_file::write_texts;
+use crate::dataset::{ColumnMap, WallChoice};
+use crate::diagnose::comparison::{ComparedModel, Comparison, compare};
+use crate::report::{comparison_page, comparison_text};
 use nearwall::Model;
 use nearwall::input::Document;
-use nearwall_lab::atomic_file::write_texts;
-use nearwall_lab::dataset::{ColumnMap, WallChoice};
-use nearwall_lab::diagnose::comparison::{ComparedModel, Comparison, compare};
-use nearwall_lab::report::{comparison_page, comparison_text};
 
-use crate::{CommandResult, progress};
+use super::{CommandResult, progress};
 
 /// Ranks models on measured impacts by held-out error with intervals
 #[derive(clap::Args)]
@@ -36,17 +36,9 @@ pub struct Arguments {
     /// The wall that is hit; by default the column `wall`, then the wall `default`, then the only wall
     #[arg(long)]
     wall: Option<String>,
-    /// Rig whose data are compared; not supported yet
-    #[arg(long, value_name = "CASE.toml")]
-    case: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
-    if let Some(case) = &arguments.case {
-        let problem =
-            "data of rigs are not supported yet; leave out --case to compare models on single impacts";
-        return Err(format!("--case {}: {problem}", case.display()).into());
-    }
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let files: Vec<Document> =
         arguments.models.iter().map(|path| Document::from_file(path)).collect::<Result<_, _>>()?;
@@ -59,13 +51,13 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let candidates: Vec<ComparedModel<'_>> =
         files.iter().zip(&models).map(candidate).collect::<Result<_, Box<dyn std::error::Error>>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
-    crate::note(&notes);
+    super::note(&notes);
     let file = arguments.data.display().to_string();
     let comparison = compare(&candidates, arguments.seed).map_err(|error| format!("{file}: {error}"))?;
     let text = comparison_text(&comparison);
-    let Some(folder) = &arguments.out else { return crate::print(&text) };
+    let Some(folder) = &arguments.out else { return super::print(&text) };
     write(arguments, folder, &comparison, &notes)?;
-    crate::print_page(&(text + "\n"), &folder.join("compare.html"))
+    super::print_page(&(text + "\n"), &folder.join("compare.html"))
 }
 
 /// The data as the walls of a model read them.
@@ -83,7 +75,7 @@ fn read<'a>(
     let source = bar.wrap_read(source);
     let read = ComparedModel::read(name.to_owned(), model, &file, source, map, &walls);
     Ok(read.map_err(|error| match error {
-        nearwall_lab::dataset::DatasetError::Wall(error) => of_model(error),
+        crate::dataset::DatasetError::Wall(error) => of_model(error),
         other => other.to_string(),
     })?)
 }

@@ -1,0 +1,276 @@
+"""Functions that run the command `nearwall` beside this process, so that Ctrl-C ends it, and give its tables and pages."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from html import escape
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy
+
+from .frames import Frame, Table, arrays, kind_of, make, source
+from .library import Error, Model
+from .wheel import AnyPath, compiled, warn
+
+#: Name of an input, its least and largest value in SI units, and by choice the number of points.
+Axis = Union[Tuple[str, float, float], Tuple[str, float, float, int]]
+
+
+@dataclass(frozen=True, repr=False)
+class Page:
+    """A page that shows itself in a notebook: `html` is its text."""
+
+    html: str
+    _texts: Dict[str, str]
+
+    def save(self, folder: AnyPath) -> None:
+        """Writes the files that the command writes into a folder."""
+        for name, text in self._texts.items():
+            place = pathlib.Path(folder, name)
+            place.parent.mkdir(parents=True, exist_ok=True)
+            place.write_text(text, encoding="utf-8")
+
+    def _repr_html_(self) -> str:
+        # The page has its own style sheet, so it stands in a frame.
+        return f"<iframe style='width:100%;height:40em;border:0' srcdoc=\"{escape(self.html)}\"></iframe>"
+
+
+class Run:
+    """A run of the command in a folder of its own, which is taken out of all its texts."""
+
+    def __init__(self, folder: str) -> None:
+        self.folder = folder
+        self.out = os.path.join(folder, "out")
+
+    def table(self, table: Table) -> str:
+        """The path of a table; a frame becomes a file."""
+        if kind_of(table) is None:
+            return os.fsdecode(table)
+        columns = {str(name): numpy.frombuffer(column) if isinstance(column, bytes) else column for name, column in source(table)}
+        path = os.path.join(self.folder, "frame")
+        with open(path, "w", newline="", encoding="utf-8") as file:
+            rows = csv.writer(file)
+            rows.writerow(columns)
+            rows.writerows([_cell(value) for value in row] for row in zip(*columns.values()))
+        return path
+
+    def model(self, model: Union[Model, AnyPath]) -> str:
+        """The path of a model file."""
+        if not isinstance(model, Model):
+            return os.fsdecode(model)
+        path = pathlib.Path(self.folder, str(len(os.listdir(self.folder))), pathlib.Path(model.name).name)
+        path.parent.mkdir()
+        path.write_text(model.text, encoding="utf-8")
+        return str(path)
+
+    def command(self, *arguments: Any) -> str:
+        """What the command prints; its notes become warnings, its fault an Error."""
+        compiled()
+        words = [sys.executable, "-m", "nearwall", *(os.fsdecode(word) if isinstance(word, os.PathLike) else str(word)
+                                                     for word in arguments)]
+        done = subprocess.run(words, capture_output=True, encoding="utf-8", errors="replace")
+        notes = [self.own(note).strip() for note in re.split(r"^nearwall: ", done.stderr, flags=re.MULTILINE)]
+        # A wrong value is refused before the command runs, in the words of a usage error.
+        fault = notes.pop().removeprefix("error: ").split("\n\nFor more")[0] if done.returncode else ""
+        warn(note for note in notes if note)
+        if done.returncode:
+            raise Error(None, fault)
+        return self.own(done.stdout)
+
+    def own(self, text: str) -> str:
+        """A text without the folder; a drawn folder has no name of its own."""
+        return re.sub(re.escape(self.folder) + r"/(\d+/)?", "", text)
+
+    def texts(self) -> Dict[str, str]:
+        """The files that were written, by name."""
+        files = sorted(path for path in pathlib.Path(self.out).rglob("*") if path.is_file())
+        return {str(path.relative_to(self.out)): self.own(path.read_text(encoding="utf-8")) for path in files}
+
+    def frame(self, name: str, kind: Optional[str]) -> Frame:
+        """A CSV file that was written."""
+        return make(arrays(compiled().read_csv(os.path.join(self.out, name))), kind)
+
+
+def _cell(value: Any) -> str:
+    """A cell; whole numbers have no point, so that labels such as 3 stay as they are."""
+    if value is None or value != value:
+        return ""
+    if isinstance(value, str):
+        return value
+    return str(int(value)) if float(value).is_integer() and abs(value) < 1e16 else repr(float(value))
+
+
+def begin() -> "tempfile.TemporaryDirectory[str]":
+    """A folder for a run."""
+    return tempfile.TemporaryDirectory(prefix="nearwall-")
+
+
+def options(**given: Any) -> List[str]:
+    """Options of the command; those that are None are left out."""
+    return [word for name, value in given.items() if value is not None for word in (f"--{name}", str(value))]
+
+
+def check(model: Union[Model, AnyPath]) -> str:
+    """Checks a model or a model file and describes it in words, as `nearwall check`. Raises Error, which names line and key."""
+    with begin() as folder:
+        run = Run(folder)
+        return run.command("check", run.model(model)).rstrip()
+
+
+@dataclass(frozen=True, repr=False)
+class Comparison(Page):
+    """The result of `compare`: `record` is compare.json (docs/compare.md)."""
+
+    record: Dict[str, Any]
+
+    @property
+    def verdict(self) -> str:
+        """The result in a few sentences."""
+        return str(self.record["verdict"])
+
+    @property
+    def ranking(self) -> List[str]:
+        """The models, the best first."""
+        return [str(model["model"]) for model in self.record["models"]]
+
+    def plot(self, measure: str = "log_likelihood", ax: Any = None) -> Any:
+        """Draws a measure of each model with its 95 % interval: "log_likelihood", "rmse_e_n", "rmse_e_t", "log_loss_stick"."""
+        models = [model for model in self.record["models"] if model[measure]]
+        ax = ax or _axes()
+        for place, model in enumerate(models):
+            value, ends = model[measure]["value"], model[measure]["ci95"]
+            low, high = ends or (value, value)
+            ax.errorbar(value, place, xerr=[[value - low], [high - value]], fmt="o", color="C0", capsize=3)
+        ax.set_yticks(range(len(models)), [pathlib.Path(model["model"]).name for model in models])
+        ax.invert_yaxis()
+        ax.set_xlabel(measure.replace("_", " "))
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<nearwall.Comparison: {self.verdict}>"
+
+
+def compare(table: Table, models: Sequence[Union[Model, AnyPath]], *, columns: Optional[AnyPath] = None,
+            wall: Optional[str] = None, seed: int = 1) -> Comparison:
+    """Ranks two or more models on measured impacts, as `nearwall compare`; table, columns and wall are those of `diagnose`."""
+    with begin() as folder:
+        run = Run(folder)
+        run.command("compare", run.table(table), "--models", *[run.model(model) for model in models], "--out", run.out,
+                    *options(columns=columns, wall=wall, seed=seed))
+        texts = run.texts()
+        return Comparison(texts["compare.html"], texts, json.loads(texts["compare.json"]))
+
+
+@dataclass(frozen=True, repr=False)
+class Map(Page):
+    """What a model decides over two inputs: `frame` has a row for each pair of their values, with e_n, e_t, p_stick and
+    regime; `axes` are the names of the inputs."""
+
+    frame: Frame
+    axes: Tuple[str, str]
+
+    def plot(self, quantity: str = "p_stick", ax: Any = None) -> Any:
+        """Draws "e_n", "e_t" or "p_stick" in colours over both inputs."""
+        ax = ax or _axes()
+        x, y, z = (numpy.asarray(self.frame[name], float) for name in (*self.axes, quantity))
+        columns, rows = numpy.unique(x), numpy.unique(y)
+        grid = numpy.full((rows.size, columns.size), numpy.nan)
+        grid[numpy.searchsorted(rows, y), numpy.searchsorted(columns, x)] = z
+        colours = ax.pcolormesh(columns, rows, grid, shading="nearest", vmin=0, vmax=1)
+        ax.figure.colorbar(colours, ax=ax, label=f"{quantity} [1]")
+        for axis, values, scale, label in ((0, columns, ax.set_xscale, ax.set_xlabel), (1, rows, ax.set_yscale, ax.set_ylabel)):
+            label(self.axes[axis])
+            if values[0] > 0 and values[-1] / values[0] >= 30:
+                scale("log")
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<nearwall.Map over {self.axes[0]} and {self.axes[1]}>"
+
+
+def map(model: Union[Model, AnyPath], x: Optional[Axis] = None, y: Optional[Axis] = None, *,
+        fixed: Optional[Mapping[str, float]] = None, wall: Optional[str] = None, kind: Optional[str] = None) -> Map:
+    """Decides impacts over two inputs while the others are fixed, as `nearwall map`.
+
+    x, y: input with its least and largest value in SI units and, by choice, the number of points, as ("v_n", 0.1, 30).
+    fixed: values of other inputs, as {"T_p": 1700}.
+    """
+    def word(axis: Optional[Axis]) -> Optional[str]:
+        if axis is None:
+            return None
+        name, low, high, *points = axis
+        return f"{name}={float(low)!r}:{float(high)!r}" + "".join(f":{count}" for count in points)
+    with begin() as folder:
+        run = Run(folder)
+        settings = [part for name, value in (fixed or {}).items() for part in ("--set", f"{name}={float(value)!r}")]
+        run.command("map", run.model(model), "-o", run.out, *settings,
+                    *options(x=word(x), y=word(y), wall=wall))
+        texts = run.texts()
+        first, second = texts["map.csv"].split("\n", 1)[0].split(",")[:2]
+        return Map(texts["map.html"], texts, run.frame("map.csv", kind), (first, second))
+
+
+@dataclass(frozen=True, repr=False)
+class Sensitivity(Page):
+    """Which numbers of a case decide what its walls capture: `frame` has a row for each number and wall, the largest change
+    first; `record` is sensitivity.json (docs/forecast.md)."""
+
+    record: Dict[str, Any]
+    frame: Frame
+
+    def plot(self, wall: Optional[str] = None, most: int = 12, ax: Any = None) -> Any:
+        """Draws the captured share of a wall, by default the first, at both ends of the range of each number."""
+        ax = ax or _axes()
+        numbers = [number for number in self.record["numbers"] if number["largest"] > 0][:most]
+        for place, number in enumerate(numbers):
+            one = next(one for one in number["walls"] if wall in (None, one["wall"]))
+            for end, colour in (("captured_low", "C0"), ("captured_high", "C1")):
+                ax.barh(place, one[end] - one["captured"], left=one["captured"], color=colour,
+                        label={"captured_low": "low end", "captured_high": "high end"}[end] if place == 0 else None)
+        ax.set_yticks(range(len(numbers)), [number["key"] for number in numbers])
+        ax.invert_yaxis()
+        ax.set_xlabel("captured share of the injected mass [1]")
+        ax.legend()
+        return ax
+
+    def __repr__(self) -> str:
+        return f"<nearwall.Sensitivity of {len(self.record['numbers'])} numbers>"
+
+
+def sensitivity(case: AnyPath, *, settings: Optional[Mapping[str, Any]] = None, particles: int = 1000,
+                clean_walls: bool = False, kind: Optional[str] = None) -> Sensitivity:
+    """Moves each number of a case within its range and ranks them by what the walls capture, as `nearwall sensitivity`.
+
+    settings: numbers of the case that are changed first, as {"gas.temperature": 358.15}.
+    particles: most particles that are followed for each number; clean_walls leaves out the case's deposit.
+    """
+    changes = [part for name, value in (settings or {}).items() for part in ("--set", f"{name}={value}")]
+    with begin() as folder:
+        run = Run(folder)
+        run.command("sensitivity", case, "-o", run.out, "--particles", particles, *changes,
+                    *(["--clean-walls"] if clean_walls else []))
+        texts = run.texts()
+        return Sensitivity(texts["report.html"], texts, json.loads(texts["sensitivity.json"]), run.frame("sensitivity.csv", kind))
+
+
+def report(*cases: AnyPath) -> Page:
+    """The page of finished OpenFOAM cases, one or several side by side, as `nearwall report`."""
+    with begin() as folder:
+        run = Run(folder)
+        os.mkdir(run.out)
+        run.command("report", *cases, "-o", os.path.join(run.out, "report.html"))
+        texts = run.texts()
+        return Page(texts["report.html"], texts)
+
+
+def _axes() -> Any:
+    import matplotlib.pyplot
+    return matplotlib.pyplot.subplots(layout="constrained")[1]

@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: 2026 the nearwall authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "returningMass.H"
+#include "dictionaryChecks.H"
+#include "mathematicalConstants.H"
+#include "surfaceFields.H"
+#include "wallField.H"
+
+namespace
+{
+
+using namespace Foam;
+using namespace Foam::nearWall;
+
+//- Names of the terms, in their order: keys of a restart and columns
+const wordList names
+({
+    "left_kg", "returned_kg", "returned_parcels", "landed_kg", "landed_m3",
+    "landed_m2", "landed_parcels"
+});
+
+
+//- Diameters and their shares in the mass, which add up to 1
+List<Tuple2<scalar, scalar>> readSizes(const dictionary& dict)
+{
+    typedef List<Tuple2<scalar, scalar>> sizes;
+    const sizes given(readOr<sizes>(dict, "sizes", sizes()));
+    scalar sum = 0;
+    bool sound = true;
+    forAll(given, k)
+    {
+        sound = sound && given[k].first() > 0 && given[k].second() > 0;
+        sum += given[k].second();
+    }
+    if (!sound || (given.size() && mag(sum - 1) > 1e-6))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Key 'sizes' must be a list of diameters [m] above 0 and their"
+            << " shares in the mass, which add up to 1, as in" << nl
+            << "    sizes ((2e-4 0.3) (1e-3 0.7));" << exit(FatalIOError);
+    }
+    return given;
+}
+
+
+bool readOn(const dictionary& dict)
+{
+    refuseUnknownKeys
+    (
+        dict, wordList({"parcels", "sizes", "parcelMass"}), "memory, shed"
+    );
+    return readOr<Switch>(dict, "parcels", Switch(false));
+}
+
+} // End anonymous namespace
+
+
+Foam::nearWall::returningMass::returningMass
+(
+    const dictionary& dict,
+    const fvMesh& mesh,
+    const word& cloudName,
+    const labelList& patches,
+    const scalar acceleration,
+    const dictionary& saved,
+    const fileName& folder
+)
+:
+    mesh_(mesh),
+    patches_(patches),
+    acceleration_(acceleration),
+    on_(readOn(dict)),
+    sizes_(readSizes(dict)),
+    parcelMass_
+    (
+        readChecked<scalar>
+        (
+            dict, "parcelMass", 0, [](scalar m) { return m >= 0; },
+            "0, for that of what landed, or more"
+        )
+    ),
+    waiting_(readWallField(mesh, cloudName + ":waitingMass", dimMass/dimArea))
+{
+    // Another run may go on with what waits
+    if (!on_) setWriteOption(waiting_, IOobject::NO_WRITE);
+    added_.resize(patches_.size(), std::vector<kahanSum>(nTerms));
+    for (const label patchi : patches_)
+    {
+        const word& name = patchesOf(mesh)[patchi].name();
+        sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
+        tables_.emplace_back(folder/(name + ".returned.dat"));
+    }
+}
+
+
+void Foam::nearWall::returningMass::add
+(
+    const label i,
+    const label t,
+    const scalar value
+)
+{
+    const scalar added = added_[i][t].add(value);
+    sums_[i].add(t, added - sums_[i].added()[t]);
+}
+
+
+void Foam::nearWall::returningMass::addCaptured(const impactEvent& e)
+{
+    if (!on_) return;
+
+    const scalar d = e.impact.d;
+    const scalar area = e.particles*constant::mathematical::pi/4*sqr(d);
+    forAll(patches_, i)
+    {
+        if (patches_[i] != e.patch) continue;
+
+        add(i, landedMass, e.mass);
+        add(i, landedVolume, area*2/3*d);
+        add(i, landedArea, area);
+        add(i, landed, 1);
+    }
+}
+
+
+void Foam::nearWall::returningMass::addLost
+(
+    const label i,
+    const label facei,
+    const nw_deposit_losses& lost
+)
+{
+    scalar mass = 0;
+    for (label k = 0; k < NW_PROCESSES; ++k) mass += lost.mass[k];
+    if (!on_ || mass <= 0) return;
+
+    const label patchi = patches_[i];
+    waiting_.boundaryFieldRef()[patchi][facei] += mass;
+    add(i, left, mass*mesh_.magSf().boundaryField()[patchi][facei]);
+}
+
+
+void Foam::nearWall::returningMass::formParcels
+(
+    const label i,
+    const scalarList& totals,
+    std::vector<parcel>& found
+)
+{
+    const label patchi = patches_[i];
+    const scalarField& area = mesh_.magSf().boundaryField()[patchi];
+    scalarField& waiting = waiting_.boundaryFieldRef()[patchi];
+    const scalar density = totals[landedMass]/totals[landedVolume];
+    const scalar sauter = 1.5*totals[landedVolume]/totals[landedArea];
+    const scalar least =
+        parcelMass_ > 0 ? parcelMass_ : totals[landedMass]/totals[landed];
+    forAll(waiting, facei)
+    {
+        const scalar mass = waiting[facei]*area[facei];
+        if (mass <= 0 || mass < acceleration_*least) continue;
+
+        waiting[facei] = 0;
+        add(i, returned, mass);
+        const scalar flow = mass/acceleration_;
+        if (sizes_.empty())
+        {
+            found.push_back({patchi, facei, sauter, density, flow});
+        }
+        forAll(sizes_, k)
+        {
+            found.push_back
+            (
+                {
+                    patchi, facei, sizes_[k].first(), density,
+                    sizes_[k].second()*flow
+                }
+            );
+        }
+        add(i, parcels, max(sizes_.size(), 1));
+    }
+}
+
+
+std::vector<Foam::nearWall::returningMass::parcel>
+Foam::nearWall::returningMass::take()
+{
+    std::vector<parcel> found;
+    if (!on_) return found;
+
+    const List<scalarList> totals(runningTotals::totals(sums_));
+    forAll(patches_, i)
+    {
+        if (totals[i][landed] > 0) formParcels(i, totals[i], found);
+        else if (totals[i][left] > 0 && !isSaid_)
+        {
+            isSaid_ = true;
+            Info<< "    nearWallInteraction, warning: what leaves patch "
+                << sums_[i].name() << " waits until a parcel has landed there:"
+                << " its density is that of what lands" << nl;
+        }
+    }
+    return found;
+}
+
+
+Foam::nearWall::tableRow Foam::nearWall::returningMass::row
+(
+    const label i,
+    const scalarList& totals,
+    const scalar waiting,
+    const scalar time
+) const
+{
+    const scalar out = totals[returned] + waiting;
+    tableRow cells;
+    cells.add("time_s", time);
+    for (const label t : {left, returned, parcels}) cells.add(names[t], totals[t]);
+    cells.add("waiting_kg", waiting);
+    cells.add
+    (
+        "residual",
+        totals[left] > 0 ? (totals[left] - out)/totals[left] : 0
+    );
+    return cells;
+}
+
+
+Foam::dictionary Foam::nearWall::returningMass::report
+(
+    Ostream& os,
+    const scalar time,
+    const bool writeRow
+)
+{
+    if (!on_) return dictionary();
+
+    scalarList waiting(patches_.size(), scalar(0));
+    forAll(patches_, i)
+    {
+        const label patchi = patches_[i];
+        waiting[i] = sum
+        (
+            mesh_.magSf().boundaryField()[patchi]
+           *waiting_.boundaryField()[patchi]
+        );
+    }
+    sumOverRanks(waiting);
+    const List<scalarList> totals(runningTotals::totals(sums_));
+    forAll(patches_, i)
+    {
+        if (totals[i][left] > 0)
+        {
+            os  << "        " << sums_[i].name() << ", left the wall: "
+                << totals[i][left] << " kg, came back in "
+                << totals[i][parcels] << " parcels: " << totals[i][returned]
+                << " kg, waiting " << waiting[i] << " kg" << nl;
+        }
+        if (writeRow) tables_[i].write(row(i, totals[i], waiting[i], time));
+    }
+    return runningTotals::saved(sums_, totals);
+}

@@ -1,0 +1,295 @@
+# Cases of run: what goes round between gas, parcels and walls: the heat of what lands, and the mass that leaves again.
+# shellcheck shell=bash disable=SC2154
+
+# Every row of these tables closes to 1e-9
+closes() { # name table...
+    local name="$1" said
+    shift
+    if said="$(awk '
+        $1 == "#" { for (i = 2; i <= NF; i++) at[$i] = i - 1; next }
+        { r = $at["residual"]; if (r < 0) r = -r; if (r > m) m = r; rows++ }
+        END { printf "%d rows, largest residual %.2g", rows, m; exit !(rows && m <= 1e-9) }' "$@")"
+    then ok "$name ($said)"; else bad "$name" "$said"; fi
+}
+
+# 400 parcels of 62.5 ug, 1000 J/kg/K and this temperature [K] rain onto the floor for 50 ms: 0.05 kg/m2/s. The steam side holds
+# the wall at 500 K
+rain() { # folder parcel-temperature
+    growing_box "$1" || return
+    {
+        header vectorField parcels
+        echo "("
+        awk 'BEGIN { srand(11); for (i = 0; i < 400; i++)
+            printf "(%.6f %.6f %.6f)\n", 0.005 + 0.04*rand(), 0.01 + 0.08*rand(), 0.003 + 0.094*rand() }'
+        echo ")"
+    } > constant/parcels
+    sed -i 's/massTotal 0.003; /massTotal 2.5e-5; /' constant/limestoneCloud1Properties
+    sed -i "s/T0 1100; Cp0 33;/T0 $2;/" constant/limestoneCloud1Properties
+    sed -i 's/memory { acceleration 2; }/memory { } record { maxRows 1000; }/' constant/interaction
+    sed -i '/^\[walls.floor.shedding\]/,$ d' constant/nearWall.toml
+    sed -i 's/h 900;/h 1e7;/; s/uniform 700/uniform 500/; s/emissivity.*1300;//' 0/T
+    settings 0.05 0.01 startTime ascii
+}
+
+# What the captured parcels of impacts.csv bring by hand [J]: 1000 (T_p - T) and so much heat of fusion [J/kg]. They give it while
+# the deposit makes the surface warmer by some kelvin: at least with the highest T of the floor, at most with that of each impact
+as_by_hand() { # name folder fusion
+    local found most least
+    found="$(brought "$2")"
+    most="$(brought_by_hand "$2" "$3" 0)"
+    least="$(brought_by_hand "$2" "$3" "$(last "$2/floor.wall.dat" wall_temperature_max_K)")"
+    if awk -v q="$found" -v a="$least" -v b="$most" 'BEGIN { exit !(a > 0.98*b && q >= a && q <= b) }'
+    then ok "$1 ($found J, by hand $least to $most)"; else bad "$1" "$found J, by hand $least to $most"; fi
+}
+
+brought_by_hand() { # folder fusion temperature-of-the-surface
+    awk -F, -v L="$2" -v T="$3" '
+        /^#/ { next }
+        !("mass" in at) { for (i = 1; i <= NF; i++) at[$i] = i; next }
+        $at["outcome"] == "stuck" || $at["outcome"] == "stick" { sum += $at["mass"]*(1000*($at["T_p"] - (T > 0 ? T : $at["T_w"])) + L) }
+        END { printf "%.12g", sum }' "$1/impacts.csv"
+}
+
+# What they gave, and have still to give
+brought() { # folder
+    awk -v a="$(last "$1/floor.heat.dat" particles_J)" -v b="$(last "$1/floor.heat.dat" waiting_J)" 'BEGIN { printf "%.12g", a + b }'
+}
+
+heat_of() { # start-folder
+    local f patch column
+    for patch in floor lid sides; do
+        f="$(folder limestoneCloud1 "$1")/$patch.heat.dat"
+        for column in gas_J radiation_J particles_J coolant_J melting_J landed lagging_J waiting_J; do
+            echo "$patch-$column $(last "$f" "$column")"
+        done
+    done
+}
+
+# The lag is a small difference, and the gas is restarted to 5e-6 only
+same_heat() { # name start-folder tolerance
+    local difference
+    heat_of "$2" | grep -v lagging_J > heat
+    if difference="$(same_totals "$work/landed/heat" heat "$3")"
+    then ok "$1/heat"; else bad "$1/heat" "$(head -n 1 <<< "$difference")"; fi
+    closes "$1/balance" "$(folder limestoneCloud1 "$2")"/*.heat.dat
+}
+
+case_landed() {
+    local dir="$work/landed" f said
+    rain "$dir" 1100 || return
+    solve landed serial "$solver" || return
+    heat_of 0 | grep -v lagging_J > heat
+    f="$(folder limestoneCloud1)"
+    closes landed/balance "$f"/*.heat.dat
+    as_by_hand landed/sensible "$f" 0
+    said="$(awk -v q="$(brought "$f")" 'BEGIN { printf "%.1f", q/(1e3*0.01*0.05) }')"
+    if awk -v q="$said" 'BEGIN { exit !(q > 10 && q < 65) }'
+    then ok "landed/order ($said kW/m2 of 0.05 kg/m2/s)"; else bad landed/order "$said kW/m2"; fi
+    expect_numbers landed/count "$(last "$f/floor.heat.dat" landed)" "$(last "$f/floor.dat" sticks)"
+
+    rm -rf "$dir-restart"; mkdir "$dir-restart"; cp -r 0 0.04 constant system "$dir-restart"; cd "$dir-restart" || return
+    settings 0.05 0.02 latestTime ascii
+    solve landed restart "$solver" && same_heat landed/restart 0.04 1e-4
+    rm -rf "$dir-2"; mkdir "$dir-2"; cp -r "$dir"/{0,constant,system} "$dir-2"; cd "$dir-2" || return
+    ranks_are 2
+    quiet decompose decomposePar
+    solve landed ranks mpirun -np 2 "$solver" -parallel || return
+    same_heat landed/ranks 0 1e-6
+
+    # Drops of 1500 K that freeze on the wall bring their heat of fusion, too
+    rain "$work/landed-drops" 1500 || return
+    molten_model
+    solve landed drops "$solver" || return
+    f="$(folder limestoneCloud1)"
+    as_by_hand landed/fusion "$f" 2e5
+    closes landed/fusion-balance "$f"/*.heat.dat
+    melted_layer
+    landed_interval
+}
+
+# Deposits that advance in every fifth step take the same heat, and what waits in between is in the balance
+landed_interval() {
+    local f said
+    rain "$work/landed-interval" 1100 || return
+    sed -i 's/memory { }/memory { intervalSteps 5; }/' constant/interaction
+    settings 0.056 0.014 startTime ascii
+    solve landed interval "$solver" || return
+    f="$(folder limestoneCloud1)"
+    said="$(brought "$f")"
+    as_by_hand landed/interval "$f" 0
+    closes landed/interval-balance "$f"/*.heat.dat
+    rm -rf "$work/landed-interval-restart"; mkdir "$work/landed-interval-restart"
+    cp -r 0 0.028 constant system "$work/landed-interval-restart"; cd "$work/landed-interval-restart" || return
+    settings 0.056 0.014 latestTime ascii
+    solve landed interval-restart "$solver" || return
+    closes landed/interval-restart "$(folder limestoneCloud1 0.028)"/*.heat.dat
+    if near "$(brought "$(folder limestoneCloud1 0.028)")" "$said" 1e-5
+    then ok landed/interval-same; else bad landed/interval-same "$(brought "$(folder limestoneCloud1 0.028)") J, $said J"; fi
+}
+
+# Ash that is solid below 1400 K, with a heat of fusion
+molten_model() {
+    sed -i 's/^viscosity = .*/critical_viscosity_temperature = 1400\nviscosity = 100\nheat_of_fusion = 2e5/' constant/nearWall.toml
+    sed -i '/^\[\[effects\]\]/,$ d' constant/nearWall.toml
+    printf '[capture]\nmodel = "viscosity"\nlaw = "kalmanovitch-frank"\nreference_viscosity = 1e4\n' >> constant/nearWall.toml
+}
+
+# 2 mm of powder under surroundings of 1900 K for 50 ms, a thousand seconds of the deposit: what is molten took its heat of fusion,
+# and the gas, whose cells see the same walls, gave what the table says
+melted_layer() {
+    local f patch said
+    rain "$work/landed-melt" 1500 || return
+    molten_model
+    sed -i 's/"pyrex"/"pyrex"\nlayer_thickness = 2e-3/' constant/nearWall.toml
+    sed -i 's/massTotal 2.5e-5; /massTotal 0; /' constant/limestoneCloud1Properties
+    sed -i 's/memory { }/memory { acceleration 2e4; }/' constant/interaction
+    sed -i 's/h 1e7;/h 1e7; emissivity 0.9; surroundingsTemperature 1900;/' 0/T
+    solve landed melt "$solver" || return
+    f="$(folder limestoneCloud1)"
+    closes landed/melt-balance "$f"/*.heat.dat
+    for patch in floor lid sides; do
+        # The first step is not in the table of heat
+        said="$(awk -v patch="$patch" '
+            FNR == 1 { for (i = 2; i <= NF; i++) at[FILENAME, $i] = i - 1; next }
+            FILENAME ~ /wall.dat/ { m = $at[FILENAME, "molten_kg"]; if (FNR == 2) first = m; next }
+            { q = $at[FILENAME, "melting_J"]; held = $at[FILENAME, "lagging_J"]/$at[FILENAME, "radiation_J"] }
+            END { d = q/(2e5*(m - first)) - 1; printf "%.6g kg of slag took %.6g J, lag %.1e of the radiation", m - first, q, held
+                exit !((m - first)^2 > 1e-6 && d*d < 1e-14 && held*held < 1e-4) }' "$f/$patch.wall.dat" "$f/$patch.heat.dat")" \
+            && ok "landed/melt-$patch ($said)" || bad "landed/melt-$patch" "$said"
+    done
+}
+
+# Parcels that stick to every wall; the floor holds some 80 ug/m2 against gravity, which points up, and so does the lid downwards
+returning_box() { # folder
+    build kinematic "$1" || return
+    {
+        header vectorField parcels
+        echo "("
+        awk 'BEGIN { srand(5); for (i = 0; i < 400; i++)
+            printf "(%.6f %.6f %.6f)\n", 0.005 + 0.04*rand(), 0.01 + 0.08*rand(), 0.003 + 0.02*rand() }'
+        echo ")"
+    } > constant/parcels
+    printf '%s\n' 'model "<constant>/nearWall.toml"; stuck remove; particleTemperature 350;' \
+        'memory { shed { parcels yes; } } patches { outlet { type rebound; } }' > constant/interaction
+    echo 'subModels { particleForces { gravity; } }' >> constant/kinematicCloudProperties
+    cat >> constant/nearWall.toml <<'END'
+[[effects]]
+kind = "melting-transition"
+temperature = 300
+width = 5
+[walls.floor.shedding]
+tensile_strength = 8e-4
+shear_strength = 1
+spread = 1.5
+[walls.default.shedding]
+tensile_strength = 8e-4
+shear_strength = 1
+spread = 1.5
+END
+    gravity_is 9.81
+    sed -i 's/writePrecision .*/writePrecision 17;/' system/controlDict
+}
+
+gravity_is() { sed -i "s/^value .*/value (0 0 $1);/" constant/g; }
+
+# injected = airborne + removed, and what was removed lies on the walls or waits there, to 1e-9
+goes_round() { # name start-folder
+    local f patch on=0 removed returned
+    check_balance "$1/balance" kinematicCloud "$2"
+    f="$(folder kinematicCloud "$2")"
+    closes "$1/left" "$f"/*.returned.dat
+    for patch in floor lid sides; do
+        on="$(awk -v a="$on" -v b="$(last "$f/$patch.wall.dat" powder_kg)" -v c="$(last "$f/$patch.wall.dat" molten_kg)" \
+            -v d="$(last "$f/$patch.wall.dat" frozen_kg)" -v e="$(last "$f/$patch.returned.dat" waiting_kg)" \
+            'BEGIN { printf "%.17g", a + b + c + d + e }')"
+    done
+    removed="$(last "$f/balance.dat" stuck_removed_kg)"
+    returned="$(last "$f/floor.returned.dat" returned_kg) $(last "$f/lid.returned.dat" returned_kg)"
+    if near "$on" "$removed" 1e-9; then ok "$1/on-walls ($removed kg; came back $returned kg)"
+    else bad "$1/on-walls" "on the walls $on kg, removed from the cloud $removed kg"; fi
+}
+
+# Where the mass of the first turn is
+round_of() {
+    local f patch
+    f="$(folder kinematicCloud)"
+    echo "airborne $(last "$f/balance.dat" airborne_kg)"
+    for patch in floor lid; do
+        echo "$patch $(last "$f/$patch.returned.dat" returned_kg) $(last "$f/$patch.returned.dat" returned_parcels) $(last "$f/$patch.wall.dat" arrived_kg)"
+    done
+}
+
+case_returned() {
+    local dir="$work/returned" turn gravity t=0 difference
+    returning_box "$dir" || return
+    for turn in 1 2 3 4; do
+        # Each turn goes on from the last, with gravity the other way round
+        gravity="$([ $((turn % 2)) = 1 ] && echo 9.81 || echo -9.81)"
+        gravity_is "$gravity"
+        settings "$(awk -v n="$turn" 'BEGIN { print 0.2*n }')" 0.2 latestTime ascii
+        solve returned "turn$turn" "$solver" || return
+        goes_round "returned/turn$turn" "$t"
+        t="$(awk -v n="$turn" 'BEGIN { print 0.2*n }')"
+    done
+    if awk -v a="$(last "$(folder kinematicCloud 0.6)/floor.returned.dat" returned_parcels)" \
+        -v b="$(last "$(folder kinematicCloud 0.6)/lid.returned.dat" returned_parcels)" 'BEGIN { exit !(a > 10 && b > 10) }'
+    then ok returned/both-ways; else bad returned/both-ways "too few parcels came back"; fi
+
+    round_of > round
+    returning_box "$dir-2" || return
+    settings 0.2 0.2 startTime ascii
+    ranks_are 2
+    quiet decompose decomposePar
+    solve returned ranks mpirun -np 2 "$solver" -parallel || return
+    goes_round returned/ranks 0
+    round_of > round
+    if difference="$(same_totals "$dir/round" round 1e-9)"
+    then ok returned/ranks; else bad returned/ranks "$(head -n 1 <<< "$difference")"; fi
+    returned_sizes
+    returned_heat
+    refused_return
+}
+
+# Given sizes: the masses of the parcels have their shares, by volume 0.3 at 0.2 mm and 0.7 at 1 mm
+returned_sizes() {
+    returning_box "$work/returned-sizes" || return
+    sed -i 's/parcels yes;/parcels yes; sizes ((2e-4 0.3) (1e-3 0.7));/' constant/interaction
+    settings 0.06 0.06 startTime ascii
+    solve returned sizes "$solver" || return
+    goes_round returned/sizes 0
+    local said
+    said="$(paste <(values 0.06/lagrangian/kinematicCloud/d) <(values 0.06/lagrangian/kinematicCloud/nParticle) \
+        | awk '$1 > 1.5e-4 { m[$1 > 5e-4] += $2*$1^3 } END { printf "%.9g", m[0]/(m[0] + m[1]) }')"
+    expect_numbers returned/shares "$said" 0.3
+}
+
+# A thermo cloud: what comes back has the temperature of its face
+returned_heat() {
+    local said
+    growing_box "$work/returned-thermo" || return
+    sed -i 's/memory { acceleration 2; }/stuck remove; memory { acceleration 2; shed { parcels yes; } }/' constant/interaction
+    sed -i 's/memory/#includeIfPresent "coalMemory"\nmemory/' constant/interaction
+    echo 'subModels { particleForces { gravity; } nearWallInteractionCoeffs { memory { shed { parcels no; } } } }' >> constant/coalCloud1Properties
+    echo 'subModels { particleForces { gravity; } }' >> constant/limestoneCloud1Properties
+    solve returned thermo "$solver" || return
+    check_balance returned/thermo-balance limestoneCloud1 0
+    closes returned/thermo-left "$(folder limestoneCloud1)"/*.returned.dat
+    said="$(values 0.1/lagrangian/limestoneCloud1/T | awk '$1 < 1099 && $1 > 500 { n++ } END { print n + 0 }')"
+    if [ "$said" -gt 0 ]; then ok "returned/thermo ($said parcels colder than injected)"
+    else bad returned/thermo "no parcel came back"; fi
+}
+
+# What cannot be done is refused with place and remedy
+refused_return() {
+    local said
+    returning_box "$work/returned-refused" || return
+    sed -i 's/stuck remove;//' constant/interaction
+    if quiet keep "$solver"; then bad returned/refused-keep "the run went through"
+    elif tr -s ' \n' ' ' < log.keep | grep -q "Key 'parcels' of memory, shed.*Write stuck remove;"
+    then ok returned/refused-keep; else bad returned/refused-keep "$(grep -A4 FATAL log.keep | tr '\n' ' ')"; fi
+    build multiphase "$work/returned-composition" || return
+    echo 'model "<constant>/nearWall.toml"; stuck remove; memory { shed { parcels yes; } } patches { outlet { type rebound; } }' > constant/interaction
+    if quiet run "$solver"; then bad returned/refused-composition "the run went through"
+    elif tr -s ' \n' ' ' < log.run | grep -q "needs the composition of the deposit"
+    then ok returned/refused-composition; else bad returned/refused-composition "$(grep -A4 FATAL log.run | tr '\n' ' ')"; fi
+}
