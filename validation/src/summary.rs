@@ -7,7 +7,7 @@ use crate::study::SourceStudy;
 /// Columns of the statements that differ.
 const SUMMARY_HEADER: [&str; 4] = ["statement", "source", "here", "reason"];
 
-/// The counts, and every statement that differs or cannot be checked.
+/// The counts, and every statement that differs.
 pub fn summary(studies: &[SourceStudy]) -> String {
     let all: usize = studies.iter().map(|study| study.claims().count()).sum();
     let total = |verdict| studies.iter().map(|study| study.count(verdict)).sum::<usize>();
@@ -35,26 +35,18 @@ pub fn summary(studies: &[SourceStudy]) -> String {
     text
 }
 
-/// The statements of a study that differ or cannot be checked; empty if there are none.
+/// The statements of a study that differ; empty if there are none.
 fn misses(study: &SourceStudy) -> String {
-    let with = |verdict| study.claims().filter(move |claim: &&Claim| claim.verdict == verdict);
-    let mut claims: Vec<&Claim> = with(Verdict::Differs).collect();
+    let mut claims: Vec<&Claim> = study.claims().filter(|claim| claim.verdict == Verdict::Differs).collect();
     // Statements that differ for one reason stand together.
     let reasons: Vec<&str> = claims.iter().map(|claim| first_sentence(&claim.why)).collect();
     claims.sort_by_key(|claim| reasons.iter().position(|reason| *reason == first_sentence(&claim.why)));
     let same = |a: &&Claim, b: &&Claim| first_sentence(&a.why) == first_sentence(&b.why);
     let differing: Vec<_> = claims.chunk_by(same).map(row).collect();
-    let open: Vec<_> =
-        with(Verdict::Unchecked).map(|claim| format!("{} ({})", claim.what, claim.place)).collect();
-    if differing.is_empty() && open.is_empty() {
+    if differing.is_empty() {
         return String::new();
     }
-    let mut text =
-        format!("\n## {}\n{}\n\n{}", study.title, wrapped(&study.source), rows(&SUMMARY_HEADER, &differing));
-    if !open.is_empty() {
-        text += &format!("\n{}\n", wrapped(&format!("Cannot be checked: {}.", open.join("; "))));
-    }
-    text
+    format!("\n## {}\n{}\n\n{}", study.title, wrapped(&study.source), rows(&SUMMARY_HEADER, &differing))
 }
 
 /// Statements that differ for one reason; what is said alike of several places stands once, and so does a place.
