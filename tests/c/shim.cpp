@@ -143,7 +143,7 @@ int deposit(const nearwall::model& model) {
         REQUIRE(losses.mass[i] == 0);
         if (model.wall_processes(impact.wall) >> i & 1) names += all[i].name + " ";
     }
-    REQUIRE(names == "melting sintering " && all[2].loss == "resuspended" && all[0].loss.empty());
+    REQUIRE(names == "melting sintering " && all[3].loss == "resuspended" && all[0].loss.empty());
     return 0;
 }
 

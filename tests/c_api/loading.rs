@@ -223,8 +223,8 @@ fn statuses_and_regimes_have_words() {
     let calls = Calls::load();
     let text = |status| calls.text(unsafe { (calls.nw_status_text)(status) });
     let texts: std::collections::HashSet<&str> = (NW_OK..=NW_NO_HEAT_CAPACITY).map(text).collect();
-    assert_eq!(texts.len(), 12);
-    for status in [-1, 12, i32::MIN, i32::MAX] {
+    assert_eq!(texts.len(), 13);
+    for status in [-1, 13, i32::MIN, i32::MAX] {
         assert_eq!(text(status), "unknown status");
     }
     let name = |regime| calls.text(unsafe { (calls.nw_regime_name)(regime) });

@@ -69,7 +69,7 @@
     const place = (one, key) => Number(one.getAttribute(key));
     const all = [...svg.querySelectorAll("text[x]")].map((one) => ({
       x: place(one, "x"), y: place(one, "y"), anchor: one.getAttribute("text-anchor"),
-      value: one.textContent.trim() === "" ? NaN : Number(one.textContent.trim().replace("−", "-")),
+      value: one.textContent.trim() === "" ? null : Number(one.textContent.trim().replace("−", "-")),
     })).filter((one) => Number.isFinite(one.value));
     // Ticks along x stand in one line, those along y end in one column.
     const line = (anchor, key, at) => {
