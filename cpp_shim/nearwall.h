@@ -41,7 +41,7 @@
 #define NW_EXTRA_INPUTS 8
 
 // Number of processes that change a deposit.
-#define NW_PROCESSES 4
+#define NW_PROCESSES 5
 
 // Number of directions of space.
 #define NW_DIRECTIONS 3
@@ -227,6 +227,9 @@ typedef struct nw_wall_cooling {
   double other_conductivity;
   // Temperature [K] for which `other_conductivity` is given; 0 where there is none.
   double other_temperature;
+  // Mass fraction of the vapour of the table `condensation` in the gas [1], 0 to 0.5; below 0 where it is that of
+  // the model file.
+  double vapour_fraction;
 } nw_wall_cooling;
 
 // Temperatures of a wall with a deposit.
@@ -335,7 +338,8 @@ typedef struct nw_deposit_losses {
   uint32_t struct_size;
   // Zero.
   uint32_t reserved;
-  // Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
+  // Mass by process [kg/m2]; `nw_process_loss` names the entries. Negative for a process that brings mass, which
+  // `nw_process_gain` names; 0 for one that conserves mass.
   double mass[NW_PROCESSES];
   // Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
   // of the next two. 0, as they are, on a wall that is not cooled.
@@ -616,7 +620,7 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            size_t *first_bad);
 
 // Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-// K) at 293.15 K for the gas in the voids (air), zeros. The temperatures of coolant and gas must be set.
+// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant and gas must be set.
 //
 // # Safety
 // `cooling` can be written.
@@ -795,7 +799,8 @@ nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 
 // Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
 // that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
-// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
+// wall in the model file); what the wall cannot hold falls off (table `shedding`); vapour condenses on
+// a surface of a known temperature (table `condensation`). `losses`
 // receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
 // `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 // finite, since a surface that is held at a temperature could give any heat.
@@ -823,8 +828,12 @@ nw_status nw_wall_processes(const struct nw_model *model, uint32_t wall, uint32_
 const char *nw_process_name(uint32_t process);
 
 // Returns how tables name the mass that a process takes, for instance `resuspended`, as a static
-// string: empty for a process that conserves mass, null from `NW_PROCESSES` on.
+// string: empty for a process that takes none, null from `NW_PROCESSES` on.
 const char *nw_process_loss(uint32_t process);
+
+// Returns how tables name the mass that a process brings, for instance `condensed`, as a static
+// string: empty for a process that brings none, null from `NW_PROCESSES` on.
+const char *nw_process_gain(uint32_t process);
 
 // Initialises a walk: its size and zeros.
 //

@@ -190,14 +190,14 @@ inline nw_deposit_losses make_deposit_losses() {
 
 // A process that changes a deposit: its name, and how tables name the mass that it takes, empty if it takes none.
 struct process {
-    std::string name, loss;
+    std::string name, loss, gain;
 };
 
 // All processes, in the order of nw_deposit_losses.mass.
 inline std::vector<process> processes() {
     std::vector<process> found;
     for (std::uint32_t i = 0; i < NW_PROCESSES; ++i) {
-        found.push_back(process{nw_process_name(i), nw_process_loss(i)});
+        found.push_back(process{nw_process_name(i), nw_process_loss(i), nw_process_gain(i)});
     }
     return found;
 }

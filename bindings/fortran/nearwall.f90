@@ -26,7 +26,7 @@ module nearwall
   ! GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
   integer(c_int32_t), parameter :: NEARWALL_ABI_VERSION = 1
   integer(c_int32_t), parameter :: NW_EXTRA_INPUTS = 8
-  integer(c_int32_t), parameter :: NW_PROCESSES = 4
+  integer(c_int32_t), parameter :: NW_PROCESSES = 5
   integer(c_int32_t), parameter :: NW_DIRECTIONS = 3
   integer(c_int32_t), parameter :: NW_OUTSIDE_VALID_RANGE = 1
   integer(c_int32_t), parameter :: NW_OK = 0
@@ -132,6 +132,7 @@ module nearwall
     real(c_double) :: void_temperature
     real(c_double) :: other_conductivity
     real(c_double) :: other_temperature
+    real(c_double) :: vapour_fraction
   end type nw_wall_cooling
 
   type, bind(c) :: nw_wall_heat
@@ -559,6 +560,12 @@ module nearwall
       integer(c_int32_t), value :: process
       type(c_ptr) :: nw_process_loss
     end function nw_process_loss
+
+    function nw_process_gain(process) bind(c)
+      import
+      integer(c_int32_t), value :: process
+      type(c_ptr) :: nw_process_gain
+    end function nw_process_gain
 
     function nw_walk_init(walk) bind(c)
       import

@@ -5,8 +5,10 @@
 #ifdef OPENFOAM
 
 #include "basicHeterogeneousReactingCloud.H"
+#include "makeNearWallTransport.H"
 #include "nearWallInteraction.H"
 
 makeNearWallInteraction(basicHeterogeneousReactingCloud)
+makeNearWallTransport(basicHeterogeneousReactingCloud)
 
 #endif

@@ -1,9 +1,11 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "makeNearWallTransport.H"
 #include "nearWallInteraction.H"
 #include NEARWALL_EITHER("basicKinematicCloud.H", "momentumCloud.H")
 
 #define solverCloud NEARWALL_EITHER(basicKinematicCloud, momentumCloud)
 
 makeNearWallInteraction(solverCloud)
+makeNearWallTransport(solverCloud)

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 the nearwall authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include "makeNearWallTransport.H"
 #include "nearWallInteraction.H"
 #include NEARWALL_EITHER("basicReactingMultiphaseCloud.H", "reactingMultiphaseCloud.H")
 
@@ -8,3 +9,4 @@
 
 // Also serves coalCloud, whose base cloud type is the same
 makeNearWallInteraction(solverCloud)
+makeNearWallTransport(solverCloud)

@@ -132,7 +132,7 @@ void Foam::nearWall::returningMass::addLost
 )
 {
     scalar mass = 0;
-    for (label k = 0; k < NW_PROCESSES; ++k) mass += lost.mass[k];
+    for (label k = 0; k < NW_PROCESSES; ++k) mass += max(lost.mass[k], scalar(0));
     if (!on_ || mass <= 0) return;
 
     const label patchi = patches_[i];

@@ -134,8 +134,10 @@ Foam::nearWall::wallBalance::wallBalance
 {
     for (const nearwall::process& process : nearwall::processes())
     {
-        losses_.push_back(process.loss);
-        if (!process.loss.empty()) names_.append(word(process.loss + "_kg"));
+        const bool gains = !process.gain.empty();
+        losses_.push_back(gains ? process.gain : process.loss);
+        signs_.push_back(gains ? -1 : 1);
+        if (!losses_.back().empty()) names_.append(word(losses_.back() + "_kg"));
     }
     added_.resize(patches_.size(), std::vector<kahanSum>(names_.size()));
     forAll(patches_, i)
@@ -177,7 +179,9 @@ void Foam::nearWall::wallBalance::addLosses
     label t = nTerms;
     for (std::size_t process = 0; process < losses_.size(); ++process)
     {
-        if (!losses_[process].empty()) add(i, t++, lost.mass[process]);
+        if (losses_[process].empty()) continue;
+
+        add(i, t++, signs_[process]*lost.mass[process]);
     }
 }
 
@@ -185,7 +189,11 @@ void Foam::nearWall::wallBalance::addLosses
 Foam::scalar Foam::nearWall::wallBalance::lost(const scalarList& totals) const
 {
     scalar sum = 0;
-    for (label t = nTerms; t < totals.size(); ++t) sum += totals[t];
+    label t = nTerms;
+    for (std::size_t process = 0; process < losses_.size(); ++process)
+    {
+        if (!losses_[process].empty()) sum += signs_[process]*totals[t++];
+    }
     return sum;
 }
 
@@ -233,9 +241,10 @@ Foam::nearWall::tableRow Foam::nearWall::wallBalance::row
 
     const scalar in = totals[initial] + totals[arrived];
     const scalar deposited = faces.deposited(i);
+    const scalar gone = lost(totals);
     const scalar rest =
-        in + totals[fromOthers] - totals[drained] - lost(totals) - deposited;
-    const scalar all = max(in, in + totals[fromOthers]);
+        in + totals[fromOthers] - totals[drained] - gone - deposited;
+    const scalar all = max(in, max(in + totals[fromOthers], in - gone));
 
     tableRow cells;
     cells.add("time_s", time);

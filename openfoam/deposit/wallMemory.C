@@ -141,6 +141,12 @@ bool takesMass(const nearwall::process& process)
 }
 
 
+bool bringsMass(const nearwall::process& process)
+{
+    return !process.gain.empty();
+}
+
+
 //- Largest change of a deposit in one piece of an interval, as a share of it
 const scalar largestChange = 0.1;
 
@@ -775,18 +781,26 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
         heat_.beginPatch(patchi, duration);
     }
     const patchSurroundings surroundings(*this, i);
+    const bool gainsMass = acts(*model_, rules_[patchi].wall, bringsMass);
 
     scalar arrived = 0;
     nw_deposit_losses lost(nearwall::make_deposit_losses());
     forAll(area, facei)
     {
         const bool isHit = captured_[patchi].count(facei) > 0;
-        if (!cooling && !isHit && !fields_.holds(patchi, facei)) continue;
+        if (!cooling && !isHit && !gainsMass && !fields_.holds(patchi, facei))
+        {
+            continue;
+        }
 
         nw_deposit d(deposit(patchi, facei));
         arrived += addCaptured(d, patchi, facei)*area[facei];
         const scalar slag = d.molten + d.frozen;
-        if (cooling || slag > 0 || (d.powder > 0 && surroundings.losesMass()))
+        if
+        (
+            cooling || slag > 0 || gainsMass
+         || (d.powder > 0 && surroundings.losesMass())
+        )
         {
             nw_wall_cooling* const by = cooling ? &heating[facei] : nullptr;
             const nw_deposit_losses here

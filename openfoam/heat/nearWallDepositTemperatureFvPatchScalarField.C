@@ -56,7 +56,7 @@ void refuseOtherKeys(const dictionary& dict, const string& owner)
         wordList
         ({
             "Ta", "h", "thicknessLayers", "kappaLayers", "emissivity",
-            "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation",
+            "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation", "vapour",
             "type", "value", "mode", "kappaMethod", "refValue", "refGradient",
             "refGrad", "valueFraction", "radiating", "patchType", "useImplicit",
             "source", "libs"
@@ -88,6 +88,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
     qr(readOr<word>(dict, "qr", word("none"))),
     alphat(readOr<word>(dict, "alphat", word("alphat"))),
     cloud(readOr<word>(dict, "cloud", word())),
+    vapour(readOr<word>(dict, "vapour", word("none"))),
     relaxation
     (
         readChecked<scalar>
@@ -166,6 +167,7 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::write
     }
     writeKey(os, "qr", qr);
     writeKey(os, "alphat", alphat);
+    if (vapour != "none") writeKey(os, "vapour", vapour);
     if (!cloud.empty()) writeKey(os, "cloud", cloud);
     writeKey(os, "relaxation", relaxation);
 }
@@ -331,6 +333,11 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
         c.other_conductivity = here[i];
         c.other_temperature = T[i];
     }
+    if (given_.vapour != "none")
+    {
+        const scalarField vapour(vapourBeside());
+        forAll(found, i) found[i].vapour_fraction = max(vapour[i], scalar(0));
+    }
     if (given_.qr != "none")
     {
         const scalarField& qr = radiated();
@@ -419,6 +426,23 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::radiated() const
     return
         db().lookupObject<volScalarField>(given_.qr)
        .boundaryField()[patch().index()];
+}
+
+
+Foam::tmp<Foam::scalarField>
+Foam::nearWallDepositTemperatureFvPatchScalarField::vapourBeside() const
+{
+    if (!db().foundObject<volScalarField>(given_.vapour))
+    {
+        FatalErrorInFunction
+            << "Patch '" << patch().name() << "' of " << internalField().name()
+            << ", key 'vapour': there is no field '" << given_.vapour << "'." << nl
+            << "    Give the name of the mass fraction of a species, or remove"
+            << " the key: then it is that of the wall model." << exit(FatalError);
+    }
+    return
+        db().lookupObject<volScalarField>(given_.vapour)
+       .boundaryField()[patch().index()].patchInternalField();
 }
 
 

@@ -47,6 +47,9 @@ pub struct nw_wall_cooling {
     pub other_conductivity: f64,
     /// Temperature [K] for which `other_conductivity` is given; 0 where there is none.
     pub other_temperature: f64,
+    /// Mass fraction of the vapour of the table `condensation` in the gas [1], 0 to 0.5; below 0 where it is that of
+    /// the model file.
+    pub vapour_fraction: f64,
 }
 
 /// Temperatures of a wall with a deposit.
@@ -97,6 +100,7 @@ impl Default for nw_wall_cooling {
             void_temperature: 293.15,
             other_conductivity: 0.0,
             other_temperature: 0.0,
+            vapour_fraction: -1.0,
         }
     }
 }
@@ -109,6 +113,7 @@ impl nw_wall_cooling {
         let other = [self.other_conductivity, self.other_temperature];
         let sound =
             given.into_iter().all(is_positive) && (other == [0.0; 2] || other.into_iter().all(is_positive));
+        let sound = sound && self.vapour_fraction <= 0.5;
         if sound { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 
@@ -127,6 +132,7 @@ impl nw_wall_cooling {
                 [self.void_temperature, self.gas_conductivity],
                 (self.other_temperature > 0.0).then_some([self.other_temperature, self.other_conductivity]),
             ),
+            vapour: (self.vapour_fraction >= 0.0).then_some(self.vapour_fraction),
         }
     }
 }
@@ -159,7 +165,7 @@ fn is_positive(number: f64) -> bool {
 }
 
 /// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-/// K) at 293.15 K for the gas in the voids (air), zeros. The temperatures of coolant and gas must be set.
+/// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant and gas must be set.
 ///
 /// # Safety
 /// `cooling` can be written.

@@ -11,7 +11,7 @@ use super::types::{NW_BAD_STATE, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_
 use crate::deposit::{PROCESS_COUNT, PROCESSES, StepHeat, Surroundings, WallCooling, WallGas};
 
 /// Number of processes that change a deposit.
-pub const NW_PROCESSES: usize = 4;
+pub const NW_PROCESSES: usize = 5;
 
 const _: () = assert!(NW_PROCESSES == PROCESS_COUNT);
 
@@ -52,7 +52,8 @@ pub struct nw_deposit_losses {
     pub struct_size: u32,
     /// Zero.
     pub reserved: u32,
-    /// Mass by process [kg/m2]; `nw_process_loss` names the entries. 0 for a process that conserves mass.
+    /// Mass by process [kg/m2]; `nw_process_loss` names the entries. Negative for a process that brings mass, which
+    /// `nw_process_gain` names; 0 for one that conserves mass.
     pub mass: [f64; NW_PROCESSES],
     /// Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
     /// of the next two. 0, as they are, on a wall that is not cooled.
@@ -109,7 +110,8 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
 
 /// Advances a deposit by a time step of a `duration` [s]: slag and powder melt and freeze with the heat
 /// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
-/// wall in the model file); what the wall cannot hold falls off (table `shedding`). `losses`
+/// wall in the model file); what the wall cannot hold falls off (table `shedding`); vapour condenses on
+/// a surface of a known temperature (table `condensation`). `losses`
 /// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
 /// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
 /// finite, since a surface that is held at a temperature could give any heat.
@@ -194,12 +196,12 @@ pub unsafe extern "C" fn nw_wall_processes(
     guarded_status(find)
 }
 
-/// Name and loss of each process.
-static PROCESS_NAMES: LazyLock<[[CString; 2]; NW_PROCESSES]> = LazyLock::new(|| {
+/// Name, loss and gain of each process.
+static PROCESS_NAMES: LazyLock<[[CString; 3]; NW_PROCESSES]> = LazyLock::new(|| {
     let text = |text: &str| CString::new(text).unwrap_or_default();
     std::array::from_fn(|index| {
         let process = PROCESSES[index];
-        [process.name, process.loss.unwrap_or_default()].map(text)
+        [process.name, process.loss.unwrap_or_default(), process.gain.unwrap_or_default()].map(text)
     })
 });
 
@@ -207,12 +209,19 @@ static PROCESS_NAMES: LazyLock<[[CString; 2]; NW_PROCESSES]> = LazyLock::new(|| 
 /// the order of their index. Null from `NW_PROCESSES` on.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_process_name(process: u32) -> *const c_char {
-    PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[name, _]| name.as_ptr())
+    PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[name, ..]| name.as_ptr())
 }
 
 /// Returns how tables name the mass that a process takes, for instance `resuspended`, as a static
-/// string: empty for a process that conserves mass, null from `NW_PROCESSES` on.
+/// string: empty for a process that takes none, null from `NW_PROCESSES` on.
 #[unsafe(no_mangle)]
 pub extern "C" fn nw_process_loss(process: u32) -> *const c_char {
-    PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[_, loss]| loss.as_ptr())
+    PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[_, loss, _]| loss.as_ptr())
+}
+
+/// Returns how tables name the mass that a process brings, for instance `condensed`, as a static
+/// string: empty for a process that brings none, null from `NW_PROCESSES` on.
+#[unsafe(no_mangle)]
+pub extern "C" fn nw_process_gain(process: u32) -> *const c_char {
+    PROCESS_NAMES.get(process as usize).map_or(std::ptr::null(), |[_, _, gain]| gain.as_ptr())
 }

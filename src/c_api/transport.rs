@@ -83,6 +83,9 @@ impl nw_walk {
             friction_velocity: self.friction_velocity,
             kinematic_viscosity: self.kinematic_viscosity,
         };
+        if has_core && !wall.reaches() {
+            return Ok(GasTurbulence::free(&core));
+        }
         Ok(GasTurbulence::beside(&wall, has_core.then_some(&core), self.flow))
     }
 

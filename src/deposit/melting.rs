@@ -11,7 +11,7 @@ use super::layers::Layers;
 use super::process::{DepositHeat, Process, ProcessInfo, Step};
 
 pub(super) const INFO: ProcessInfo =
-    ProcessInfo { name: "melting", loss: None, read: |_| Ok(Some(Arc::new(Melting))) };
+    ProcessInfo { name: "melting", loss: None, gain: None, read: |_| Ok(Some(Arc::new(Melting))) };
 
 #[derive(Debug)]
 struct Melting;

@@ -26,6 +26,7 @@ pub mod process;
 pub mod resuspension;
 mod shedding;
 pub(crate) mod sintering;
+pub mod vapour_condensation;
 mod wall_processes;
 pub mod wetting;
 

@@ -41,6 +41,24 @@ pub struct WallCooling {
     pub hot: HotSide,
     /// The gas in the voids of the powder.
     pub void_gas: VoidGas,
+    /// Mass fraction [1] of the vapour that may condense, where it is not that of the model file.
+    pub vapour: Option<f64>,
+}
+
+/// The gas at a surface on which vapour may condense; what is `None` is as the model file states it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct VapourSide {
+    /// Heat transfer coefficient [W/(m² K)].
+    pub coefficient: Option<f64>,
+    /// Mass fraction of the vapour [1].
+    pub fraction: Option<f64>,
+}
+
+impl WallCooling {
+    /// The gas as vapour sees it.
+    pub fn vapour_side(&self) -> VapourSide {
+        VapourSide { coefficient: Some(self.hot.coefficient), fraction: self.vapour }
+    }
 }
 
 /// Conductivity of the gas in the voids of powder: `k (T/T_0)^n` at the powder's own temperature, the
@@ -222,10 +240,32 @@ pub struct Step<'a> {
     pub duration: f64,
 }
 
+impl Step<'_> {
+    /// The gas as vapour sees it, and the temperature of the surface [K] at the start of the step; `None` where that is
+    /// not known.
+    pub fn surface(&self) -> Option<(VapourSide, f64)> {
+        match (&self.surroundings.cooling, &self.heat) {
+            (Some(cooling), DepositHeat::Cooled { flow, .. }) => {
+                Some((cooling.vapour_side(), flow.surface()))
+            }
+            (None, _) => {
+                let given = VapourSide { coefficient: None, fraction: None };
+                self.surroundings.wall_temperature.map(|temperature| (given, temperature))
+            }
+            _ => None,
+        }
+    }
+}
+
 /// A process with the numbers of one wall.
 pub trait Process: Debug + Send + Sync {
     /// The deposit after a time step.
     fn after(&self, deposit: &Deposit, step: &Step<'_>) -> Deposit;
+
+    /// Heat flux [W/m²] that it releases at a surface of a temperature [K]; the heat balance of a cooled wall has it.
+    fn heat_flux(&self, _gas: &VapourSide, _surface: f64) -> f64 {
+        0.0
+    }
 
     /// Its numbers in words, for `nearwall check`; empty where the model file gives none.
     fn describe(&self) -> String {
@@ -241,8 +281,10 @@ pub type WallProcess = Option<Arc<dyn Process>>;
 pub struct ProcessInfo {
     /// Its name, and that of its table `[walls.NAME.<process>]` in the model file, if it has a table.
     pub name: &'static str,
-    /// How tables name the mass that it takes from the wall; `None` for a process that conserves mass.
+    /// How tables name the mass that it takes from the wall; `None` for a process that takes none.
     pub loss: Option<&'static str>,
+    /// How tables name the mass that it brings to the wall; `None` for a process that brings none.
+    pub gain: Option<&'static str>,
     /// Reads the process from the table of a wall.
     pub read: fn(&Section<'_>) -> Result<WallProcess, InputError>,
 }

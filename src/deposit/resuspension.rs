@@ -77,6 +77,7 @@ use crate::input::{InputError, Section};
 pub(super) const INFO: ProcessInfo = ProcessInfo {
     name: "resuspension",
     loss: Some("resuspended"),
+    gain: None,
     read: |wall| {
         let process = own_table(wall, "resuspension", PowderAdhesion::read)?;
         if process.is_some() && wall.number("coverage")?.is_some_and(|coverage| coverage > 0.0) {

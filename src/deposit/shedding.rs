@@ -43,6 +43,7 @@ use crate::input::{InputError, Section};
 pub(super) const INFO: ProcessInfo = ProcessInfo {
     name: "shedding",
     loss: Some("shed"),
+    gain: None,
     read: |wall| own_table(wall, "shedding", Strength::read),
 };
 

@@ -37,7 +37,7 @@ use super::Deposit;
 use super::process::{DepositHeat, Process, ProcessInfo, Step};
 
 pub(super) const INFO: ProcessInfo =
-    ProcessInfo { name: "sintering", loss: None, read: |_| Ok(Some(Arc::new(Sintering))) };
+    ProcessInfo { name: "sintering", loss: None, gain: None, read: |_| Ok(Some(Arc::new(Sintering))) };
 
 /// Relative density [1] at which the pores close.
 const CLOSED: f64 = 0.8;

@@ -14,18 +14,19 @@
 //!    ([`super::burn_off`]).
 //! 3. The processes of the table act in their order ([`Model::advance`](crate::Model::advance)).
 
-use super::process::{ProcessInfo, Step, WallProcess};
-use super::{Deposit, melting, resuspension, shedding, sintering};
+use super::process::{ProcessInfo, Step, VapourSide, WallProcess};
+use super::{Deposit, melting, resuspension, shedding, sintering, vapour_condensation};
 use crate::input::{InputError, Section};
 
 /// All processes, in the order in which they act.
 pub const PROCESSES: &[&ProcessInfo] =
-    &[&melting::INFO, &sintering::INFO, &resuspension::INFO, &shedding::INFO];
+    &[&melting::INFO, &sintering::INFO, &vapour_condensation::INFO, &resuspension::INFO, &shedding::INFO];
 
 /// Number of processes.
 pub const PROCESS_COUNT: usize = PROCESSES.len();
 
-/// Mass that each process took from a piece of wall [kg/m²], in the order of [`PROCESSES`].
+/// Mass that each process took from a piece of wall [kg/m²], in the order of [`PROCESSES`]; negative for one that brings
+/// mass.
 pub type Losses = [f64; PROCESS_COUNT];
 
 /// The processes that act on one wall.
@@ -53,13 +54,18 @@ impl WallProcesses {
         self.0.iter().flatten().map(|process| process.describe()).collect()
     }
 
+    /// Heat flux [W/m²] that they release at a surface of a temperature [K].
+    pub(crate) fn heat_flux(&self, gas: &VapourSide, surface: f64) -> f64 {
+        self.0.iter().flatten().map(|process| process.heat_flux(gas, surface)).sum()
+    }
+
     /// The deposit after a time step, and what each process took from it.
     pub(crate) fn advance(&self, deposit: &Deposit, step: &Step<'_>) -> (Deposit, Losses) {
         let (mut now, mut losses) = (*deposit, Losses::default());
         for ((process, info), loss) in self.0.iter().zip(PROCESSES).zip(&mut losses) {
             let Some(process) = process else { continue };
             let next = process.after(&now, step);
-            if info.loss.is_some() {
+            if info.loss.is_some() || info.gain.is_some() {
                 *loss = now.mass() - next.mass();
             }
             now = next;

@@ -7,7 +7,7 @@
 
 use super::Model;
 use super::wall::Wall;
-use crate::deposit::conduction::ConductionError;
+use crate::deposit::conduction::{ConductionError, HotSide};
 use crate::deposit::conductivity::{self, Phases};
 use crate::deposit::front::{FrontStep, HeatFlow, ThermalLayers};
 use crate::deposit::layers::Layers;
@@ -130,7 +130,12 @@ impl Model {
             (self.slag_melts_at(of), self.powder_melts_at(deposit.conversion));
         let start = 0.5 * (cooling.hot.gas_temperature + cooling.coolant.temperature);
         let mut means = [start; 4];
-        let mut round = 0;
+        // What processes release at the surface [W/m²]. A surface that is held at a temperature needs no balance.
+        let released_at = |surface: f64| {
+            let gas = cooling.vapour_side();
+            if cooling.hot.coefficient.is_finite() { of.processes.heat_flux(&gas, surface) } else { 0.0 }
+        };
+        let (mut released, mut round) = (0.0, 0);
         loop {
             if masses.inner_powder == 0.0 {
                 // What melt will enclose of the outer powder.
@@ -139,7 +144,7 @@ impl Model {
             let thermal = ThermalLayers {
                 coolant: cooling.coolant,
                 wall_resistance: cooling.wall_resistance,
-                hot: cooling.hot,
+                hot: HotSide { particle_flux: cooling.hot.particle_flux + released, ..cooling.hot },
                 resistance_per_mass: self.resistances_per_mass(of, deposit, voidage, cooling, means)?,
                 slag_melts_at,
                 powder_melts_at,
@@ -147,13 +152,16 @@ impl Model {
             };
             let flow = thermal.flow(&masses)?;
             let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
+            let more = released_at(flow.surface()) - released;
+            let rise = if more == 0.0 { 0.0 } else { (more / cooling.hot.coefficient).abs() };
             let lying = means.iter().zip(found).zip(masses.outwards()).filter(|(_, mass)| *mass > 0.0);
-            let disagreement = lying.map(|((mean, found), _)| (found - mean).abs()).fold(0.0, f64::max);
+            let disagreement = lying.map(|((mean, found), _)| (found - mean).abs()).fold(rise, f64::max);
             round += 1;
             if disagreement <= AGREED || round == MOST_ROUNDS {
                 return Ok((thermal, flow, disagreement));
             }
             let way = if round <= PLAIN_ROUNDS { 1.0 } else { 0.5 };
+            released += way * more;
             means.iter_mut().zip(found).for_each(|(mean, found)| *mean += way * (found - *mean));
         }
     }
@@ -288,6 +296,7 @@ emissivity = 0.9
             particle_flux: 1e3,
         },
         void_gas: VoidGas { conductivity: 0.1, temperature: 1500.0, exponent: 0.8 },
+        vapour: None,
     };
 
     /// 1.5 kg/m² of powder under 2 kg/m² of frozen and 1 kg/m² of molten slag, and powder outside.

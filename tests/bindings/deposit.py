@@ -35,4 +35,4 @@ for row, (v_n, v_t, d, T_p, T_w) in enumerate(numpy.loadtxt(sys.argv[2], delimit
         met["layer_thickness"], met["coverage"], met["melt_thickness"], deposit.molten, deposit.powder, deposit.solid, deposit.cover, deposit.conversion, velocity,
         deposit.frozen, deposit.behind, deposit.closed, deposit.resuspended, heat.surface_temperature, heat.wall_temperature, heat.heat_flux,
         heat.coolant_flux, heat.deposit_resistance,
-        0.0, 0.0, losses["resuspended"], losses["shed"])))
+        0.0, 0.0, 0.0, losses["resuspended"], losses["shed"])))

@@ -282,6 +282,7 @@ fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
             temperature: cooling.void_temperature,
             exponent: 0.8,
         },
+        vapour: None,
     }
 }
 
@@ -385,14 +386,15 @@ fn advance_cooled(
     cooling: *const nw_wall_cooling,
     duration: f64,
 ) -> Result<(nw_deposit, Losses), i32> {
-    let (mut after, mut losses) = (*deposit, nw_deposit_losses { mass: [-1.0; 4], ..Default::default() });
+    let (mut after, mut losses) =
+        (*deposit, nw_deposit_losses { mass: [-1.0; NW_PROCESSES], ..Default::default() });
     let (to, lost) = (&raw mut after, &raw mut losses);
     let status = unsafe { (calls.nw_deposit_advance)(model, around, cooling, duration, to, lost) };
     if status == NW_OK {
         return Ok((after, losses.mass));
     }
     assert_eq!(format!("{after:?}"), format!("{deposit:?}"), "written on failure");
-    assert_eq!(losses.mass, [-1.0; 4], "written on failure");
+    assert_eq!(losses.mass, [-1.0; NW_PROCESSES], "written on failure");
     Err(status)
 }
 
@@ -456,7 +458,7 @@ fn a_cooled_wall_is_that_of_the_rust_library() {
         let scale = crossed.from_gas.abs().max(crossed.fusion.abs()).max(crossed.to_coolant.abs());
         let rest = crossed.from_gas - crossed.to_coolant - crossed.fusion;
         assert!(rest.abs() < 1e-8 * scale && crossed.deposit_resistance == found.deposit_resistance);
-        assert_eq!(losses, [0.0; 4]);
+        assert_eq!(losses, [0.0; NW_PROCESSES]);
         near(deposit_in_rust(&aged).mass(), deposit_in_rust(&deposit).mass());
         melted += usize::from(aged.molten > deposit.molten);
         frozen += usize::from(aged.frozen > deposit.frozen);
@@ -633,7 +635,7 @@ fn a_deposit_falls_off() {
         let (after, losses) = advance(&calls, model, &deposit, &around, 60.0).unwrap();
         let after = format!("{after:?}");
         let is_held = after == format!("{deposit:?}");
-        assert_eq!(losses, [0.0, 0.0, 0.0, if is_held { 0.0 } else { deposit.molten + deposit.powder }]);
+        assert_eq!(losses, [0.0, 0.0, 0.0, 0.0, if is_held { 0.0 } else { deposit.molten + deposit.powder }]);
         assert!(is_held || after == format!("{:?}", nw_deposit { wall, ..nw_deposit::default() }), "{after}");
         is_held
     };
@@ -710,7 +712,7 @@ fn the_gas_carries_away_as_in_the_rust_library() {
             let (after, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
             let (left, mass, _) = expected.unwrap();
             assert_eq!((deposit_in_rust(&after), losses), (left, mass));
-            assert_eq!(losses, [0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
+            assert_eq!(losses, [0.0, 0.0, 0.0, before.mass() - deposit_in_rust(&after).mass(), 0.0]);
             assert_eq!((after.wall, after.molten), (wall, deposit.molten));
             if format!("{after:?}") == format!("{deposit:?}") {
                 kept += i32::from(wall > 0);
@@ -937,9 +939,9 @@ fn a_step_that_cannot_be_is_refused_and_nothing_written() {
         let mut initial = around;
         assert_eq!((calls.nw_deposit_surroundings_init)(&raw mut initial), NW_OK);
         assert_eq!(format!("{initial:?}"), format!("{:?}", nw_deposit_surroundings::default()));
-        losses.mass = [9.0; 4];
+        losses.mass = [9.0; NW_PROCESSES];
         assert_eq!((calls.nw_deposit_losses_init)(&raw mut losses), NW_OK);
-        assert_eq!(losses.mass, [0.0; 4]);
+        assert_eq!(losses.mass, [0.0; NW_PROCESSES]);
     }
     calls.free(model);
 }
@@ -959,7 +961,7 @@ fn without_wind_time_or_a_table_powder_stays() {
     };
     let (left, losses) = advance(&calls, model, &deposit, &wind, 60.0).unwrap();
     assert!(left.powder < deposit.powder && left.resuspended > 0.0, "{left:?}");
-    assert_eq!(losses, [0.0, 0.0, deposit.powder - left.powder, 0.0]);
+    assert_eq!(losses, [0.0, 0.0, 0.0, deposit.powder - left.powder, 0.0]);
     let calm = nw_deposit_surroundings { shear_down: 0.0, ..wind };
     let unknown = nw_deposit_surroundings { gas_density: 0.0, kinematic_viscosity: 0.0, ..calm };
     for (wall, around, duration) in
@@ -968,7 +970,7 @@ fn without_wind_time_or_a_table_powder_stays() {
         let deposit = nw_deposit { wall, ..deposit };
         let (unchanged, losses) = advance(&calls, model, &deposit, &around, duration).unwrap();
         assert_eq!(format!("{unchanged:?}"), format!("{deposit:?}"));
-        assert_eq!(losses, [0.0; 4]);
+        assert_eq!(losses, [0.0; NW_PROCESSES]);
     }
     calls.free(model);
 }
@@ -984,10 +986,13 @@ fn processes_have_names_and_walls() {
     for (index, process) in (0..).zip(PROCESSES) {
         assert_eq!(text(unsafe { (calls.nw_process_name)(index) }), process.name);
         assert_eq!(text(unsafe { (calls.nw_process_loss)(index) }), process.loss.unwrap_or(""));
+        assert_eq!(text(unsafe { (calls.nw_process_gain)(index) }), process.gain.unwrap_or(""));
     }
     let beyond = NW_PROCESSES as u32;
     assert!(unsafe {
-        (calls.nw_process_name)(beyond).is_null() && (calls.nw_process_loss)(beyond).is_null()
+        (calls.nw_process_name)(beyond).is_null()
+            && (calls.nw_process_loss)(beyond).is_null()
+            && (calls.nw_process_gain)(beyond).is_null()
     });
     let acting = |model, wall| {
         let mut bits = 77;
@@ -995,10 +1000,50 @@ fn processes_have_names_and_walls() {
         (status, bits)
     };
     // Melting and sintering everywhere.
-    assert_eq!([0, 1, 2].map(|wall| acting(model, wall)), [0b0011, 0b1111, 0b0111].map(|bits| (NW_OK, bits)));
+    assert_eq!(
+        [0, 1, 2].map(|wall| acting(model, wall)),
+        [0b0_0011, 0b1_1011, 0b0_1011].map(|bits| (NW_OK, bits))
+    );
     assert_eq!(acting(model, 77), (NW_UNKNOWN_WALL, 77));
     assert_eq!(acting(null(), 0), (NW_NULL_POINTER, 77));
     assert_eq!(unsafe { (calls.nw_wall_processes)(model, 0, null_mut()) }, NW_NULL_POINTER);
+    calls.free(model);
+}
+
+/// Vapour condenses on a bare cooled wall with the fraction of the model file or of the call, and warms it.
+#[test]
+fn vapour_condenses_on_a_cooled_wall() {
+    let calls = Calls::load();
+    let vapour = "[walls.slag.condensation]\nvapour = \"KCl\"\nmass_fraction = 2e-4\n";
+    let model = calls.parse(&format!("{EVERY_REGIME}\n{vapour}"));
+    let gained = |vapour_fraction: f64| {
+        let mut deposit = nw_deposit { wall: 1, ..nw_deposit::default() };
+        let around = nw_deposit_surroundings { voidage: 0.4, ..nw_deposit_surroundings::default() };
+        let cooling = nw_wall_cooling { gas_temperature: 1100.0, vapour_fraction, ..by_hand() };
+        let mut lost = nw_deposit_losses::default();
+        let found = heat(&calls, model, &deposit, 0.4, &cooling).unwrap();
+        let status = unsafe {
+            (calls.nw_deposit_advance)(
+                model,
+                &raw const around,
+                &raw const cooling,
+                3600.0,
+                &raw mut deposit,
+                &raw mut lost,
+            )
+        };
+        assert_eq!(status, NW_OK);
+        assert_eq!(lost.mass, [0.0, 0.0, -deposit.powder, 0.0, 0.0]);
+        (deposit.powder, found.heat_flux)
+    };
+    let [(none, dry), (half, less), (all, more), (given, same)] = [0.0, 1e-4, 2e-4, -1.0].map(gained);
+    assert_eq!((none, given, same), (0.0, all, more));
+    assert!(
+        (0.49..0.51).contains(&(half / all)) && dry < less && less < more,
+        "{half} {all} {dry} {less} {more}"
+    );
+    let bad = nw_wall_cooling { vapour_fraction: 0.6, ..by_hand() };
+    assert_eq!(heat(&calls, model, &nw_deposit::default(), 0.4, &bad).unwrap_err(), NW_BAD_STATE);
     calls.free(model);
 }
 

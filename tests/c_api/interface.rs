@@ -46,6 +46,7 @@ macro_rules! for_each_function {
             nw_wall_processes: unsafe extern "C" fn(*const nw_model, u32, *mut u32) -> i32,
             nw_process_name: unsafe extern "C" fn(u32) -> *const c_char,
             nw_process_loss: unsafe extern "C" fn(u32) -> *const c_char,
+            nw_process_gain: unsafe extern "C" fn(u32) -> *const c_char,
             nw_walk_init: unsafe extern "C" fn(*mut nw_walk) -> i32,
             nw_walk_advance: unsafe extern "C" fn(*mut nw_walk) -> i32,
             nw_thermophoresis: unsafe extern "C" fn(f64, f64, f64, f64, f64, f64, f64, *mut f64) -> i32,
@@ -60,7 +61,7 @@ macro_rules! for_each_struct {
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
             nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w T_under roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
-            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity void_temperature other_conductivity other_temperature }
+            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity void_temperature other_conductivity other_temperature vapour_fraction }
             nw_wall_heat { struct_size reserved surface_temperature wall_temperature heat_flux coolant_flux deposit_resistance disagreement behind_temperature behind_resistance }
             nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended frozen behind }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }

@@ -120,7 +120,7 @@ pub fn judge(set: &Set, diagnosis: &Value, judged: Judgement) -> GroupJudgement 
     let listed = named
         || open.into_iter().any(|name| is_right(&name))
         || findings.iter().flat_map(|one| inner(one, "not_separable")).any(|one| is_together(&one));
-    let wrong = !listed && !(findings.is_empty() && list("calibration").is_empty());
+    let wrong = !(listed || findings.is_empty() && list("calibration").is_empty());
     let forms = findings.iter().flat_map(|one| inner(one, "forms"));
     let forms = forms.filter_map(|form| form["equation"].as_str().map(str::to_owned)).collect();
     GroupJudgement { judged, named, listed, wrong, forms }

@@ -26,7 +26,7 @@ Wall = Union[int, str]
 # GENERATED from nearwall.h: `NEARWALL_BLESS=1 cargo test --test library interface` writes it again.
 ABI_VERSION = 1
 EXTRA_INPUTS = 8
-PROCESSES = 4
+PROCESSES = 5
 DIRECTIONS = 3
 OUTSIDE_VALID_RANGE = 1
 OK = 0
@@ -91,7 +91,7 @@ class nw_wall_cooling(Structure):
         ("coolant_coefficient", c_double), ("wall_resistance", c_double), ("gas_temperature", c_double),
         ("gas_coefficient", c_double), ("emissivity", c_double), ("irradiation", c_double),
         ("further_flux", c_double), ("gas_conductivity", c_double), ("void_temperature", c_double),
-        ("other_conductivity", c_double), ("other_temperature", c_double)]
+        ("other_conductivity", c_double), ("other_temperature", c_double), ("vapour_fraction", c_double)]
 
 
 class nw_wall_heat(Structure):
@@ -185,6 +185,7 @@ FUNCTIONS = {
     "nw_wall_processes": (c_int32, [c_void_p, c_uint32, POINTER(c_uint32)]),
     "nw_process_name": (c_char_p, [c_uint32]),
     "nw_process_loss": (c_char_p, [c_uint32]),
+    "nw_process_gain": (c_char_p, [c_uint32]),
     "nw_walk_init": (c_int32, [POINTER(nw_walk)]),
     "nw_walk_advance": (c_int32, [POINTER(nw_walk)]),
     "nw_thermophoresis": (c_int32, [c_double, c_double, c_double, c_double, c_double, c_double, c_double, POINTER(c_double)]),
@@ -265,7 +266,7 @@ class WallCooling(nw_wall_cooling):
     and gas_coefficient [W/(m2 K)]; wall_resistance, thickness over conductivity [m2 K/W]; emissivity [1]; irradiation and
     further_flux [W/m2]; gas_conductivity of the gas at void_temperature [K], unless given 0.026 W/(m K) at 293.15, and
     other_conductivity at other_temperature, which tell how it changes in the voids of the powder; as that of air unless
-    given. The others are 0 unless given."""
+    given; vapour_fraction [1] in the gas, that of the model file unless given. The others are 0 unless given."""
 
     def __init__(self, coolant_temperature: float, gas_temperature: float, **others: float) -> None:
         super().__init__()
@@ -687,8 +688,12 @@ class Model:
         _check(_library.nw_deposit_advance(
             self._handle, byref(surroundings), None if cooling is None else byref(cooling), duration, byref(deposit),
             byref(losses)))
-        names = [_library.nw_process_loss(index).decode() for index in range(PROCESSES)]
-        return {name: mass for name, mass in zip(names, losses.mass) if name}
+        masses = {}
+        for index, mass in enumerate(losses.mass):
+            masses[_library.nw_process_loss(index).decode()] = mass
+            masses[_library.nw_process_gain(index).decode()] = -mass
+        del masses[""]
+        return masses
 
     def wall_processes(self, wall: Wall = 0) -> List[str]:
         """Names of the processes that change a deposit on a wall, in the order in which they act."""

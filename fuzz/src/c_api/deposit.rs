@@ -358,6 +358,7 @@ fn cooling(bytes: &mut Bytes<'_>) -> nw_wall_cooling {
         &mut cooling.void_temperature,
         &mut cooling.other_conductivity,
         &mut cooling.other_temperature,
+        &mut cooling.vapour_fraction,
     ];
     let which = u16::from_le_bytes(which);
     for (bit, field) in fields.into_iter().enumerate() {
@@ -386,6 +387,7 @@ fn ask(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let process = bytes.word() as u32;
     let unknown = process as usize >= NW_PROCESSES;
     assert!(nw_process_name(process).is_null() == unknown && nw_process_loss(process).is_null() == unknown);
+    assert_eq!(nw_process_gain(process).is_null(), unknown);
 }
 
 /// Heat that a captured particle brings.

@@ -70,7 +70,7 @@ fn summary_of_run(case: &Case, run: &Run) -> String {
             captured_particles.high.round(),
         );
     }
-    for line in totals.ranges.lines("hits") {
+    for line in totals.warnings() {
         text += &format!("  {line}\n");
     }
     text

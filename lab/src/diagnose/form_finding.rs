@@ -91,7 +91,7 @@ pub(super) fn found(hypothesis: &Hypothesis<'_>, curve: &ColumnCurve) -> Option<
     Some(record(closed, curve.form.observable, (&column.name, column.unit, seen), &tried))
 }
 
-/// What a finding says of a form over a column with its unit and its range; `tried` are the forms that were compared, with the
+/// What a finding says of a form over a column with its unit and its range; `tried` are the compared forms, with the
 /// logarithm of the evidence of each [nats].
 pub(super) fn record(
     closed: &ClosedForm,

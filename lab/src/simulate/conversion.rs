@@ -9,8 +9,7 @@ use super::geometry::required_within;
 use super::shrinkage::{DIAMETER_EXPONENT, LARGEST_DIAMETER_EXPONENT};
 use nearwall::input::{InputError, Section};
 
-/// Gas constant [J/(mol K)] (CODATA 2018, exact).
-pub const GAS_CONSTANT: f64 = 8.314_462_618;
+pub use nearwall::deposit::vapour_condensation::GAS_CONSTANT;
 
 /// A `[conversion]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]

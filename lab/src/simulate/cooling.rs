@@ -81,6 +81,12 @@ impl Cooling {
             irradiation,
             particle_flux,
         };
-        WallCooling { coolant: self.coolant, wall_resistance: self.wall_resistance, hot, void_gas }
+        WallCooling {
+            coolant: self.coolant,
+            wall_resistance: self.wall_resistance,
+            hot,
+            void_gas,
+            vapour: None,
+        }
     }
 }

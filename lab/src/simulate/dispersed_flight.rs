@@ -7,8 +7,8 @@
 //! `v = d(t) - s/b + c exp(-b t)`, `x = x_0 + d_0 t + s t²/2 - s t/b + c (1 - exp(-b t))/b`, `s = (d_1 - d_0)/dt`,
 //! `c = v_0 - d_0 + s/b`.
 //!
-//! `d_1` is taken where a constant drive would lead (Heun). A step is halved while the response changes by more than a
-//! twentieth, or the drive does and displaces the particle by more than a hundredth of its diameter; it is at most a
+//! `d_1` is taken where a constant drive would lead (Heun). A step is halved while response or drive change by more
+//! than a twentieth, and displace the particle by more than a hundredth of its diameter; it is at most a
 //! fifth of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement;
 //! whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number
 //! of the particle and its step alone.
@@ -35,7 +35,8 @@ const STEP_LIMIT: usize = 20_000_000;
 const FEWEST_STEPS: f64 = 200.0;
 /// Largest change of drive and response in a step, over their size [1].
 const LARGEST_CHANGE: f64 = 0.05;
-/// Displacement by a change of the drive that need not be looked at, over the diameter [1].
+/// Displacement by a change of drive or response that need not be looked at, over the diameter [1]. In a corner both
+/// jump from one wall to the other, however short the step.
 const DISPLACEMENT: f64 = 0.01;
 /// Halvings of a step.
 const HALVINGS: u32 = 40;
@@ -210,8 +211,12 @@ impl Dispersed<'_> {
             path.drive[1] = change / path.duration;
             // The slip of the first guess would be that of a particle that has not followed the gas.
             let response = self.motion.rates(&path.at(path.duration), &end.gas).response;
-            let keeps_response = (response - rates.response).abs() <= LARGEST_CHANGE * rates.response;
-            if keeps_response && (is_even || moved <= DISPLACEMENT * body.diameter) {
+            let (turned, slip) =
+                ((response - rates.response).abs(), (begin - velocity(here)).norm() + change.norm());
+            let deflected = 0.5 * turned * slip * path.duration * path.duration;
+            let nearest = DISPLACEMENT * body.diameter;
+            let keeps_response = turned <= LARGEST_CHANGE * rates.response || deflected <= nearest;
+            if keeps_response && (is_even || moved <= nearest) {
                 path.response = 0.5 * (rates.response + response);
                 return path;
             }

@@ -28,15 +28,16 @@ case_ratio() {
     solve ratio/state state coalChemistryFoam || return
     sed -i 's/^endTime .*/endTime 0.5;/; s/^writeInterval .*/writeInterval 0.1;/; s/^startFrom .*/startFrom latestTime;/' system/controlDict
     for i in 1 2 3 4 5; do
-        for how in localInteraction nearWallNoMemory nearWall everything cooled; do
+        for how in localInteraction dispersion nearWallNoMemory nearWall everything cooled; do
             case="$work/ratio-$how"; rm -rf "$case"; cp -r "$state" "$case"; cd "$case" || return
-            cp "$base/wallModels/$(case "$how" in everything|cooled) echo nearWall ;; *) echo "$how" ;; esac)" \
+            cp "$base/wallModels/$(case "$how" in everything|cooled) echo nearWall ;; dispersion) echo localInteraction ;; *) echo "$how" ;; esac)" \
                 constant/wallInteraction
             if [ "$how" = cooled ]; then    # brick behind the slag: nearly the temperatures of the others
                 quiet set foamDictionary -entry boundaryField.slagWall -set "{ type nearWallDepositTemperature; Ta 320; h 20;
                     thicknessLayers (0.2); kappaLayers (2.5); qr qr; value uniform 1600; }" 0.4/T
                 sed -i 's/film  *yes;/film yes; acceleration 5000;/' constant/wallInteraction
             fi
+            [ "$how" != dispersion ] || sed -i 's/stochasticDispersionRAS/nearWallDispersion/' constant/coalCloud1Properties
             [ "$how" != everything ] || sed -i 's/^    stuck .*/    stuck react; record { maxRows 100000; }/' constant/wallInteraction
             measured spent coalChemistryFoam || { bad "ratio/$how" "the solver failed, see $case"; return; }
             cut -d' ' -f1 spent >> "$work/ratio-$how.times"
@@ -44,7 +45,7 @@ case_ratio() {
         done
     done
     cd "$work" || return
-    for how in localInteraction nearWallNoMemory nearWall everything cooled; do
+    for how in localInteraction dispersion nearWallNoMemory nearWall everything cooled; do
         ok "ratio/$how ($(paste -d ' ' "ratio-$how.times" ratio-localInteraction.times \
             | awk '{ print $1/$2, $1 }' | sort -g | awk '{ r[NR] = $1; t[NR] = $2 } END { printf "user time over localInteraction: median %.3f, from %.3f to %.3f; %.1f s", r[int((NR + 1)/2)], r[1], r[NR], t[int((NR + 1)/2)] }'))"
     done

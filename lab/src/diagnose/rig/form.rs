@@ -173,3 +173,51 @@ impl RigForm {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use approx::assert_relative_eq;
+    use nearwall::effect::CurveInput;
+
+    fn over(seen: [f64; 2]) -> Over {
+        let (name, also, overlapping) = ("We".to_owned(), Vec::new(), Vec::new());
+        Over { input: CurveInput::Group(0), name, unit: "1", seen, middle: 2.0, also, overlapping }
+    }
+
+    fn form(name: &str, on: CurveTarget, falls: bool) -> RigForm {
+        RigForm::new(on, &over([1.0, 4.0]), name, falls).unwrap()
+    }
+
+    /// By hand: a line through (1, 1.2) and (4, 0.6); a power with 0.5 at the geometric middle 2; a decay from 0.5
+    /// at 1; a rise to 0.9 at 4.
+    #[test]
+    fn forms_follow_from_values_at_places_of_the_range() {
+        for (name, values, parameters) in [
+            ("line", [1.2, 0.6], vec![1.4, -0.2]),
+            ("power", [0.5, -1.0], vec![1.0, -1.0]),
+            ("exponential", [0.5, 2.0], vec![0.5 * f64::exp(0.5), 2.0, 0.0]),
+            ("saturating", [0.9, 1.0], vec![1.125, 1.0, 0.0]),
+        ] {
+            let found = form(name, CurveTarget::NormalRestitution, false).parameters(&values);
+            assert_eq!(found.len(), parameters.len());
+            found.iter().zip(&parameters).for_each(|(found, by_hand)| {
+                assert_relative_eq!(*found, *by_hand, max_relative = 1e-12);
+            });
+        }
+        let falling = form("logistic", CurveTarget::Capture, true).parameters(&[3.0, 5.0]);
+        assert_eq!(falling, [3.0, -5.0, 0.0, 1.0]);
+    }
+
+    /// Factors of an exact power lead back to it.
+    #[test]
+    fn the_nearest_form_is_the_one_that_made_the_factors() {
+        let factors = [1.0, 1.5, 2.0, 3.0, 4.0].map(|x: f64| [x, 0.9 * x.powf(-0.4)]);
+        let near = RigForm::near(CurveTarget::NormalRestitution, &over([1.0, 4.0]), &factors);
+        let (power, at) = near.into_iter().find(|(form, _)| form.name() == "power").unwrap();
+        let values: Vec<f64> = power.axes().iter().zip(&at).map(|(axis, at)| axis.value(*at)).collect();
+        let found = power.parameters(&values);
+        assert_relative_eq!(found[0], 0.9, max_relative = 0.02);
+        assert_relative_eq!(found[1], -0.4, max_relative = 0.05);
+    }
+}

@@ -14,6 +14,8 @@ use crate::rig::Forward;
 const LEAST_INPUT_CHANGE: f64 = 0.05;
 /// Correlation from which two inputs change together.
 const TOGETHER: f64 = 0.98;
+/// Correlation of their order from which one of them is as good as the other: a group may be any power of an input.
+const SAME_ORDER: f64 = 0.999;
 /// Correlation of their order from which curves over two inputs describe one dependence: each tells four fifths of the
 /// variance of the other.
 const OVERLAP: f64 = 0.9;
@@ -88,7 +90,7 @@ impl Spread {
     /// group, which may be any power of the other one, in their order.
     fn is_together(&self, other: &Self) -> bool {
         if self.input.is_group() {
-            correlation(&ranks(&self.means), &ranks(&other.means)) > TOGETHER
+            correlation(&ranks(&self.means), &ranks(&other.means)) > SAME_ORDER
         } else {
             correlation(&self.means, &other.means) > TOGETHER
         }

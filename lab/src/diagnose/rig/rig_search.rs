@@ -11,6 +11,7 @@ use super::form::RigForm;
 use super::noise::{Noise, PreparedReadings, WeightedValues};
 use super::prediction_table::{TabledCandidate, TabledPlace, predict};
 use super::study::RigStudy;
+use nearwall::group::GROUPS;
 
 /// Prior odds of a law for each of its inputs that no experiment changes on purpose [1]: over such an
 /// input a law is hardly more than a level.
@@ -59,6 +60,8 @@ impl<'a> RigSearch<'a> {
         let different: BTreeMap<String, Class> =
             table.candidates.iter().map(|one| (one.addition.key(), class(&one.addition))).collect();
         different.into_values().for_each(|class| *counts.entry(class).or_default() += 1);
+        // A group is one of all groups, however few a model can compute.
+        counts.entry(Class::Group).and_modify(|count| *count = GROUPS.len().max(*count));
         let readings = study.data.count(weights);
         let stated = study.data.readings.iter().all(|one| !matches!(one.noise, Noise::Shared { .. }));
         let base = study.data.score(&table.base_prepared, study.data.values(), weights);

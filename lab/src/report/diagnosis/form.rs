@@ -67,8 +67,8 @@ pub(in crate::report) fn alone(form: &CauseForm, name: &str, unit: &str) -> Opti
     };
     let chart = chart.band(&side(|point| point.at), &lows, &highs).line("form, 95 % band", &line);
     let caption = format!(
-        "Fitted to all readings together over {name} of the impacts. Between the thin lines the form was seen; beyond them \
-         it is an extrapolation, and the band holds the errors of its parameters but not that of the form."
+        "Fitted to all readings together over {name} of the impacts. Between the thin lines the form was seen; \
+         beyond them it is an extrapolation, and the band holds the errors of its parameters but not that of the form."
     );
     let id = format!("form-{}-{}", identifier(name), identifier(title(form.observable)));
     Some(chart.mark_x(low, "").mark_x(high, "").figure(&id, &caption))

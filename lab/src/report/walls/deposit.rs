@@ -104,7 +104,10 @@ fn changes(wall: &History<DepositState>, column: &str) -> bool {
 }
 
 fn is_something(wall: &History<DepositState>) -> bool {
-    wall.rows.last().is_some_and(|(_, state)| value(state, "initial_kg") + value(state, "arrived_kg") > 0.0)
+    wall.rows.last().is_some_and(|(_, state)| {
+        let brought = ["initial_kg", "arrived_kg", "condensed_kg"].map(|column| value(state, column));
+        brought.into_iter().any(|mass| mass > 0.0)
+    })
 }
 
 /// A column over time.
@@ -122,6 +125,7 @@ fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
         ("drained", "drained_kg"),
         ("fallen off", "shed_kg"),
         ("carried away by the gas", "resuspended_kg"),
+        ("condensed from the gas", "condensed_kg"),
     ];
     for (name, column) in others {
         let points = line(wall, column);
@@ -130,7 +134,7 @@ fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
         }
     }
     let caption = "Molten and frozen slag and powder in the deposit of the wall, and, where there is some, the mass that drained from \
-                   it as a film, that fell off and that the gas carried away. In OpenFOAM with the mass at capture; a standalone case counts out \
+                   it as a film, that fell off, that the gas carried away and that vapour brought. In OpenFOAM with the mass at capture; a standalone case counts out \
                    what burns off.";
     chart.figure(&format!("wall-deposit-{}", index + 1), caption)
 }

@@ -1,7 +1,7 @@
 //! What lies on a patch that keeps a deposit, by the columns of `<patch>.wall.dat`.
 
 /// The columns that are read, in the order of [`DepositState`].
-pub const COLUMNS: [&str; 16] = [
+pub const COLUMNS: [&str; 17] = [
     "initial_kg",
     "arrived_kg",
     "molten_kg",
@@ -10,6 +10,7 @@ pub const COLUMNS: [&str; 16] = [
     "drained_kg",
     "shed_kg",
     "resuspended_kg",
+    "condensed_kg",
     "coverage_mean",
     "coverage_max",
     "layer_thickness_mean_m",

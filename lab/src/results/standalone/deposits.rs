@@ -39,10 +39,13 @@ const HEAT_HEADER: [&str; 6] = [
     "particle_flux_W_m2",
 ];
 
-/// Further columns of a case with a wall that loses deposits: the place of each process in
-/// [`PROCESSES`] and the name of its loss.
-fn losses() -> impl Iterator<Item = (usize, &'static str)> {
-    PROCESSES.iter().enumerate().filter_map(|(place, process)| Some((place, process.loss?)))
+/// Further columns of a case with a wall that loses deposits, or gains some other than by particles: the place of each
+/// process in [`PROCESSES`], the name of its loss or gain, and the sign of a loss.
+fn exchanges() -> impl Iterator<Item = (usize, &'static str, f64)> {
+    PROCESSES.iter().enumerate().filter_map(|(place, process)| {
+        let loss = process.loss.map(|name| (place, name, 1.0));
+        loss.or_else(|| process.gain.map(|name| (place, name, -1.0)))
+    })
 }
 
 /// Writes the table: one row for each time, wall and bin, and for each value of a sweep. Masses in kg are of the bin.
@@ -60,10 +63,11 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
             .any(|bin| !bin.heat.is_empty())
     };
     let heat = if runs.iter().any(cooled) { HEAT_HEADER.len() } else { 0 };
-    let loses = |wall: &Wall| wall.processes().any(|(_, process)| process.loss.is_some());
-    let lost: Vec<_> = if case.model.walls().iter().any(loses) { losses().collect() } else { Vec::new() };
+    let acts = |place: usize| move |wall: &Wall| wall.processes().any(|(acting, _)| acting == place);
+    let lost: Vec<_> =
+        exchanges().filter(|(place, ..)| case.model.walls().iter().any(acts(*place))).collect();
     let header = HEADER.into_iter().chain(HEAT_HEADER.into_iter().take(heat)).map(str::to_owned);
-    let header = header.chain(lost.iter().map(|(_, loss)| format!("{loss}_kg")));
+    let header = header.chain(lost.iter().map(|(_, name, _)| format!("{name}_kg")));
     writer.write_record(header.chain(swept))?;
     let Some(settings) = case.deposit else { return into_sink(writer) };
     for run in runs {
@@ -74,7 +78,7 @@ pub fn write<W: Write>(sink: W, case: &Case, runs: &[Run]) -> csv::Result<W> {
                 let name = case.surfaces[wall.surface].name.clone();
                 let cells = row(bin, step, settings.voidage).map(text);
                 let heat = heat_row(bin, step, settings.voidage).into_iter().take(heat);
-                let losses = lost.iter().map(|(place, _)| text(bin.lost[step][*place]));
+                let losses = lost.iter().map(|(place, _, sign)| text(sign * bin.lost[step][*place]));
                 let cells = [text(time), name].into_iter().chain(cells).chain(heat).chain(losses);
                 let cells = cells.chain(run.value.map(text));
                 writer.write_record(cells)?;
@@ -163,8 +167,8 @@ fn state(bins: &[BinHistory], step: usize, voidage: f64) -> DepositState {
         "heat_flux_mean_W_m2" => sum(&|bin| flux(bin) * bin.area) / area,
         "heat_flux_max_W_m2" => largest(&flux),
         // Nothing drains in a standalone case.
-        _ => losses()
-            .find(|(_, loss)| column.strip_suffix("_kg") == Some(loss))
-            .map_or(0.0, |(place, _)| sum(&|bin| bin.lost[step][place])),
+        _ => exchanges()
+            .find(|(_, name, _)| column.strip_suffix("_kg") == Some(name))
+            .map_or(0.0, |(place, _, sign)| sum(&|bin| sign * bin.lost[step][place])),
     })
 }

@@ -64,6 +64,7 @@ fn run_once<E: From<SimulationError>>(
     let deposits = simulate::run_once(case, value, &mut |case, value, number, trajectory| {
         totals.add(trajectory);
         totals.count_ranges(case, &ranges, trajectory);
+        totals.count_too_seldom(case, trajectory);
         observer(case, value, number, trajectory)
     })?;
     Ok(Run { value, totals, deposits, bands: Vec::new() })

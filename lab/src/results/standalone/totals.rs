@@ -1,5 +1,7 @@
 //! Sums over the trajectories of a run: per wall, per exit, and the mass balance.
 
+use std::f64::consts::PI;
+
 use super::summary::over;
 use crate::range::{RangeCounts, RangeReader};
 use crate::results::{
@@ -147,6 +149,8 @@ pub struct RunTotals {
     pub has_carbon: bool,
     /// The stated ranges that hits left.
     pub ranges: RangeCounts,
+    /// Particles that turbulence brings to walls too seldom.
+    pub too_seldom: u64,
 }
 
 impl RunTotals {
@@ -204,6 +208,28 @@ impl RunTotals {
         }
     }
 
+    /// Counts a particle whose deposition is known to be too low.
+    pub(super) fn count_too_seldom(&mut self, case: &Case, trajectory: &Trajectory) {
+        let Some(turbulence) = &case.gas.turbulence else { return };
+        let ([_, mass], diameter) = (trajectory.mass, trajectory.diameter);
+        let gas = case.gas.at(&trajectory.position);
+        let relaxation = mass / trajectory.weight / (3.0 * PI * gas.viscosity * diameter);
+        self.too_seldom += u64::from(turbulence.is_slow(relaxation, &gas));
+    }
+
+    /// What the results are not good for, a line for each reason.
+    pub fn warnings(&self) -> Vec<String> {
+        let mut lines = self.ranges.lines("hits");
+        if self.too_seldom > 0 {
+            lines.push(format!(
+                "{} of {} particles have relaxation times of 0.3 to 4 in wall units: turbulence brings fewer than \
+                 half as many to walls as measured, down to hardly any at 1",
+                self.too_seldom, self.ends.injected.count
+            ));
+        }
+        lines
+    }
+
     /// Counts the stated ranges that the hits of a particle leave.
     pub(super) fn count_ranges(&mut self, case: &Case, ranges: &RangeReader<'_>, trajectory: &Trajectory) {
         for hit in &trajectory.hits {
@@ -254,7 +280,7 @@ impl RunTotals {
             pipe: self.pipe(case),
             injections: self.by_injection(case),
             has_carbon: self.has_carbon,
-            outside_ranges: self.ranges.lines("hits"),
+            outside_ranges: self.warnings(),
             trouble: self.first_trouble.clone().map(|reason| (self.ends.unusable.count, reason)),
             ..RunResults::default()
         }

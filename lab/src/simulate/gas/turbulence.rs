@@ -42,6 +42,13 @@ impl Turbulence {
         Ok(Self { friction_velocity, core })
     }
 
+    /// Whether a particle of a relaxation time [s] is one of those that reach walls too seldom: of 0.3 to 4 viscous
+    /// times, above those that diffusion brings and below those that sweeps throw there (measured, `docs/physics.md`).
+    pub fn is_slow(&self, relaxation: f64, gas: &GasState) -> bool {
+        let viscous_time = gas.viscosity / gas.density / (self.friction_velocity * self.friction_velocity);
+        (0.3..4.0).contains(&(relaxation / viscous_time))
+    }
+
     /// The fluctuations at a position [m] where the gas has this state; `None` far from walls without `k`.
     pub(crate) fn at(
         &self,
