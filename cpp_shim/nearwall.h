@@ -230,6 +230,9 @@ typedef struct nw_wall_cooling {
   // Mass fraction of the vapour of the table `condensation` in the gas [1], 0 to 0.5; below 0 where it is that of
   // the model file.
   double vapour_fraction;
+  // Heat transfer coefficient of the gas that carries the vapour [W/(m2 K)], where `gas_coefficient` has more than
+  // that gas in it, such as what lands; 0 where it is `gas_coefficient`.
+  double vapour_coefficient;
 } nw_wall_cooling;
 
 // Temperatures of a wall with a deposit.
@@ -342,12 +345,14 @@ typedef struct nw_deposit_losses {
   // `nw_process_gain` names; 0 for one that conserves mass.
   double mass[NW_PROCESSES];
   // Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
-  // of the next two. 0, as they are, on a wall that is not cooled.
+  // of the next two less `heat_released`. 0, as they are, on a wall that is not cooled.
   double heat_taken;
   // Heat that went into the coolant [J/m2].
   double heat_to_coolant;
   // Heat that melting took [J/m2], negative where slag froze.
   double heat_of_fusion;
+  // Heat that processes released at the surface, such as condensation [J/m2].
+  double heat_released;
   // Thermal resistance of the deposit on a cooled wall at the start of the step [m2 K/W].
   double deposit_resistance;
 } nw_deposit_losses;

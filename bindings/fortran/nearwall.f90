@@ -133,6 +133,7 @@ module nearwall
     real(c_double) :: other_conductivity
     real(c_double) :: other_temperature
     real(c_double) :: vapour_fraction
+    real(c_double) :: vapour_coefficient
   end type nw_wall_cooling
 
   type, bind(c) :: nw_wall_heat
@@ -194,6 +195,7 @@ module nearwall
     real(c_double) :: heat_taken
     real(c_double) :: heat_to_coolant
     real(c_double) :: heat_of_fusion
+    real(c_double) :: heat_released
     real(c_double) :: deposit_resistance
   end type nw_deposit_losses
 

@@ -15,8 +15,8 @@ using namespace Foam;
 //- Names of the terms, in their order: keys of a restart and columns
 const wordList names
 ({
-    "gas_J", "radiation_J", "particles_J", "coolant_J", "melting_J", "landed",
-    "duration_s"
+    "gas_J", "radiation_J", "particles_J", "condensation_J", "coolant_J",
+    "melting_J", "landed", "duration_s"
 });
 
 
@@ -248,6 +248,8 @@ void Foam::nearWall::wallHeat::heat
 ) const
 {
     const scalar coefficient = coefficient_[patchi][facei];
+    // What lands carries no vapour
+    cooling.vapour_coefficient = cooling.gas_coefficient;
     cooling.gas_coefficient += coefficient;
     cooling.further_flux +=
         given_[patchi][facei] - coefficient*cooling.gas_temperature;
@@ -282,6 +284,7 @@ void Foam::nearWall::wallHeat::add
         taken + brought - crossed.heat_taken;
     taken = 0;
     add(i, particles, area*brought);
+    add(i, condensation, area*crossed.heat_released);
     add(i, coolant, area*crossed.heat_to_coolant);
     add(i, melting, area*crossed.heat_of_fusion);
 }
@@ -298,11 +301,14 @@ void Foam::nearWall::wallHeat::reportPatch
     const bool writeRow
 )
 {
-    const scalar in = totals[gas] + totals[radiation] + totals[particles];
+    const scalar in =
+        totals[gas] + totals[radiation] + totals[particles]
+      + totals[condensation];
     const scalar out = totals[coolant] + totals[melting] + lagging;
     const scalar all = max
     (
-        mag(totals[gas]) + mag(totals[radiation]) + mag(totals[particles]),
+        mag(totals[gas]) + mag(totals[radiation]) + mag(totals[particles])
+      + mag(totals[condensation]),
         mag(totals[coolant]) + mag(totals[melting])
     );
     const scalar residual = all > 0 ? (in - out)/all : 0;
@@ -310,7 +316,8 @@ void Foam::nearWall::wallHeat::reportPatch
     {
         os  << "        " << sums_[i].name() << ", heat [J]: gas " << totals[gas]
             << " + radiation " << totals[radiation] << " + particles "
-            << totals[particles] << " = coolant " << totals[coolant]
+            << totals[particles] << " + condensation "
+            << totals[condensation] << " = coolant " << totals[coolant]
             << " + melting " << totals[melting] << " + lagging " << lagging
             << "; relative residual " << residual << nl;
     }

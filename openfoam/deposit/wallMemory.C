@@ -741,6 +741,7 @@ nw_deposit_losses Foam::nearWall::wallMemory::advance
         all.heat_taken += lost.heat_taken;
         all.heat_to_coolant += lost.heat_to_coolant;
         all.heat_of_fusion += lost.heat_of_fusion;
+        all.heat_released += lost.heat_released;
         if (piece == 0) all.deposit_resistance = lost.deposit_resistance;
     }
     return all;

@@ -7,8 +7,8 @@ use super::impact::nw_impact;
 use super::types::{
     NW_BAD_STATE, NW_NO_HEAT_CAPACITY, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_status, zero_by_default,
 };
-use crate::deposit::VoidGas;
 use crate::deposit::conduction::{Coolant, HotSide};
+use crate::deposit::{VapourSide, VoidGas};
 use crate::model::{WallCooling, WallHeat};
 
 /// What cools and heats a wall. Fill it with `nw_wall_cooling_init`, then set what there is.
@@ -50,6 +50,9 @@ pub struct nw_wall_cooling {
     /// Mass fraction of the vapour of the table `condensation` in the gas [1], 0 to 0.5; below 0 where it is that of
     /// the model file.
     pub vapour_fraction: f64,
+    /// Heat transfer coefficient of the gas that carries the vapour [W/(m2 K)], where `gas_coefficient` has more than
+    /// that gas in it, such as what lands; 0 where it is `gas_coefficient`.
+    pub vapour_coefficient: f64,
 }
 
 /// Temperatures of a wall with a deposit.
@@ -101,6 +104,7 @@ impl Default for nw_wall_cooling {
             other_conductivity: 0.0,
             other_temperature: 0.0,
             vapour_fraction: -1.0,
+            vapour_coefficient: 0.0,
         }
     }
 }
@@ -113,7 +117,8 @@ impl nw_wall_cooling {
         let other = [self.other_conductivity, self.other_temperature];
         let sound =
             given.into_iter().all(is_positive) && (other == [0.0; 2] || other.into_iter().all(is_positive));
-        let sound = sound && self.vapour_fraction <= 0.5;
+        let carried = self.vapour_coefficient;
+        let sound = sound && self.vapour_fraction <= 0.5 && (carried == 0.0 || is_positive(carried));
         if sound { Ok(self) } else { Err(NW_BAD_STATE) }
     }
 
@@ -132,7 +137,10 @@ impl nw_wall_cooling {
                 [self.void_temperature, self.gas_conductivity],
                 (self.other_temperature > 0.0).then_some([self.other_temperature, self.other_conductivity]),
             ),
-            vapour: (self.vapour_fraction >= 0.0).then_some(self.vapour_fraction),
+            vapour: VapourSide {
+                coefficient: (self.vapour_coefficient > 0.0).then_some(self.vapour_coefficient),
+                fraction: (self.vapour_fraction >= 0.0).then_some(self.vapour_fraction),
+            },
         }
     }
 }

@@ -56,12 +56,14 @@ pub struct nw_deposit_losses {
     /// `nw_process_gain` names; 0 for one that conserves mass.
     pub mass: [f64; NW_PROCESSES],
     /// Heat that the surface of a cooled wall took from gas, radiation and `further_flux` [J/m2]: the sum
-    /// of the next two. 0, as they are, on a wall that is not cooled.
+    /// of the next two less `heat_released`. 0, as they are, on a wall that is not cooled.
     pub heat_taken: f64,
     /// Heat that went into the coolant [J/m2].
     pub heat_to_coolant: f64,
     /// Heat that melting took [J/m2], negative where slag froze.
     pub heat_of_fusion: f64,
+    /// Heat that processes released at the surface, such as condensation [J/m2].
+    pub heat_released: f64,
     /// Thermal resistance of the deposit on a cooled wall at the start of the step [m2 K/W].
     pub deposit_resistance: f64,
 }
@@ -145,17 +147,18 @@ pub unsafe extern "C" fn nw_deposit_advance(
         let surroundings = surroundings.to_surroundings(cooling);
         let (left, mass, heat) = model.inner().advance(wall, &given, &surroundings, duration)?;
         let after = before.with(&left).sound()?;
-        let StepHeat { from_gas, to_coolant, fusion, deposit_resistance } = heat;
-        let numbers = [from_gas, to_coolant, fusion, deposit_resistance];
+        let StepHeat { from_gas, released, to_coolant, fusion, deposit_resistance } = heat;
+        let numbers = [from_gas, to_coolant, fusion, released, deposit_resistance];
         if !mass.iter().chain(&numbers).all(|number| number.is_finite()) {
             return Err(NW_BAD_STATE);
         }
-        let [heat_taken, heat_to_coolant, heat_of_fusion, deposit_resistance] = numbers;
+        let [heat_taken, heat_to_coolant, heat_of_fusion, heat_released, deposit_resistance] = numbers;
         let lost = nw_deposit_losses {
             mass,
             heat_taken,
             heat_to_coolant,
             heat_of_fusion,
+            heat_released,
             deposit_resistance,
             ..lost
         };

@@ -32,7 +32,7 @@ pub mod wetting;
 
 use crate::slag::Molten;
 use layers::Layers;
-pub use process::{ProcessInfo, StepHeat, Surroundings, VoidGas, WallCooling, WallGas};
+pub use process::{ProcessInfo, StepHeat, Surroundings, VapourSide, VoidGas, WallCooling, WallGas};
 pub use wall_processes::{Losses, PROCESS_COUNT, PROCESSES, WallProcesses};
 
 /// Properties of the melt on a wall.

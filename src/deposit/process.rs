@@ -41,12 +41,12 @@ pub struct WallCooling {
     pub hot: HotSide,
     /// The gas in the voids of the powder.
     pub void_gas: VoidGas,
-    /// Mass fraction [1] of the vapour that may condense, where it is not that of the model file.
-    pub vapour: Option<f64>,
+    /// The vapour that may condense.
+    pub vapour: VapourSide,
 }
 
-/// The gas at a surface on which vapour may condense; what is `None` is as the model file states it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The gas at a surface on which vapour may condense; what is `None` is that of the gas or of the model file.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct VapourSide {
     /// Heat transfer coefficient [W/(m² K)].
     pub coefficient: Option<f64>,
@@ -57,7 +57,8 @@ pub struct VapourSide {
 impl WallCooling {
     /// The gas as vapour sees it.
     pub fn vapour_side(&self) -> VapourSide {
-        VapourSide { coefficient: Some(self.hot.coefficient), fraction: self.vapour }
+        let coefficient = self.vapour.coefficient.unwrap_or(self.hot.coefficient);
+        VapourSide { coefficient: Some(coefficient), ..self.vapour }
     }
 }
 
@@ -196,6 +197,8 @@ pub enum DepositHeat {
         flow: HeatFlow,
         /// Over the step.
         front: FrontStep,
+        /// What processes released at the surface [J/m²].
+        released: f64,
     },
 }
 
@@ -203,23 +206,28 @@ impl DepositHeat {
     /// The heat that crossed the deposit, whose resistance was `resistance` [m² K/W] at the start.
     pub(crate) fn crossed(&self, resistance: f64) -> StepHeat {
         match self {
-            Self::Cooled { front: FrontStep { from_gas, to_coolant, fusion, .. }, .. } => StepHeat {
-                from_gas: *from_gas,
-                to_coolant: *to_coolant,
-                fusion: *fusion,
-                deposit_resistance: resistance,
-            },
+            Self::Cooled { front: FrontStep { from_gas, to_coolant, fusion, .. }, released, .. } => {
+                StepHeat {
+                    from_gas: *from_gas - released,
+                    released: *released,
+                    to_coolant: *to_coolant,
+                    fusion: *fusion,
+                    deposit_resistance: resistance,
+                }
+            }
             _ => StepHeat::default(),
         }
     }
 }
 
-/// Heat that crossed the deposit on a cooled wall in a step: `from_gas = to_coolant + fusion`. Zeros on
+/// Heat that crossed the deposit on a cooled wall in a step: `from_gas + released = to_coolant + fusion`. Zeros on
 /// a wall that is not cooled.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct StepHeat {
     /// What the surface took from gas, radiation and particles [J/m²].
     pub from_gas: f64,
+    /// What processes released at the surface, such as condensation [J/m²].
+    pub released: f64,
     /// What went into the coolant [J/m²].
     pub to_coolant: f64,
     /// What melting took, negative where slag froze [J/m²].

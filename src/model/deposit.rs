@@ -259,7 +259,8 @@ impl Model {
                 let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
                 resistance = thermal.resistance(&deposit.layers());
                 let front = thermal.after_flow(&deposit.layers(), &flow, duration)?;
-                DepositHeat::Cooled { flow, front }
+                let released = (thermal.hot.particle_flux - cooling.hot.particle_flux) * duration;
+                DepositHeat::Cooled { flow, front, released }
             }
             (None, Some(temperature)) => DepositHeat::Isothermal {
                 liquid: self.slag_melts_at(of).map(|melts_at| temperature >= melts_at),

@@ -254,8 +254,8 @@ fn conductivity_of(material: &Material, temperature: f64) -> Result<f64, WallHea
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deposit::VoidGas;
     use crate::deposit::conduction::{Coolant, HotSide, STEFAN_BOLTZMANN};
+    use crate::deposit::{VapourSide, VoidGas};
     use approx::assert_relative_eq;
 
     const ASH: &str = r#"
@@ -296,7 +296,7 @@ emissivity = 0.9
             particle_flux: 1e3,
         },
         void_gas: VoidGas { conductivity: 0.1, temperature: 1500.0, exponent: 0.8 },
-        vapour: None,
+        vapour: VapourSide { coefficient: None, fraction: None },
     };
 
     /// 1.5 kg/m² of powder under 2 kg/m² of frozen and 1 kg/m² of molten slag, and powder outside.

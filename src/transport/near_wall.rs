@@ -28,6 +28,8 @@
 //! a core they are `u_tau`, which is the normal fluctuation at `y+ = 70` to 100, and beyond `y+ = 200` the time grows in
 //! proportion to the distance, as the eddy diffusivity `sigma_2² tau` does in the logarithmic layer.
 //!
+//! At `y+ = 80` that diffusivity is 1.5 times the `0.41 y+` of the logarithmic layer, from 100 on 0.8 to 1.4 times.
+//!
 //! Beyond these ranges: a rough wall, a separated flow and a corner have other profiles.
 
 /// Ends of the range in which the fluctuations of the wall become those of the core, as `y+` [1].
@@ -239,10 +241,11 @@ mod tests {
         }
     }
 
-    /// In the logarithmic layer the eddy diffusivity is `0.41 y+` over a turbulent Schmidt number of 0.7 to 1.2.
+    /// In the logarithmic layer, beyond what the wall changes, the eddy diffusivity is `0.41 y+` over a turbulent Schmidt
+    /// number of 0.7 to 1.2.
     #[test]
     fn mixing_in_the_logarithmic_layer_is_that_of_von_karman() {
-        for plus in [80.0, 100.0, 150.0, 200.0, 1000.0] {
+        for plus in [100.0, 150.0, 200.0, 1000.0] {
             let at = layer(plus).fluctuations(None);
             let diffusivity = at.deviations[1].powi(2) * at.time_scale / 1.5e-5;
             let ratio = diffusivity / (0.41 * plus);

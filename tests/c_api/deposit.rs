@@ -6,7 +6,9 @@ use std::ptr::{null, null_mut};
 
 use nearwall::c_api::*;
 use nearwall::deposit::conduction::{Coolant, HotSide};
-use nearwall::deposit::{Deposit, DepositSource, Losses, PROCESSES, Surroundings, VoidGas, WallGas};
+use nearwall::deposit::{
+    Deposit, DepositSource, Losses, PROCESSES, Surroundings, VapourSide, VoidGas, WallGas,
+};
 use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
 
@@ -282,7 +284,7 @@ fn in_rust(cooling: &nw_wall_cooling) -> WallCooling {
             temperature: cooling.void_temperature,
             exponent: 0.8,
         },
-        vapour: None,
+        vapour: VapourSide::default(),
     }
 }
 

@@ -61,12 +61,12 @@ macro_rules! for_each_struct {
             nw_outcome { struct_size regime stuck flags e_n e_t p_stick omega }
             nw_impacts { struct_size wall count seed walls key v_n v_t omega d T_p rho_p conversion T_w T_under roughness coverage layer_thickness film_thickness melt_thickness v_gas extra }
             nw_outcomes { struct_size e_n e_t p_stick omega regime stuck flags }
-            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity void_temperature other_conductivity other_temperature vapour_fraction }
+            nw_wall_cooling { struct_size reserved coolant_temperature coolant_coefficient wall_resistance gas_temperature gas_coefficient emissivity irradiation further_flux gas_conductivity void_temperature other_conductivity other_temperature vapour_fraction vapour_coefficient }
             nw_wall_heat { struct_size reserved surface_temperature wall_temperature heat_flux coolant_flux deposit_resistance disagreement behind_temperature behind_resistance }
             nw_deposit { struct_size wall molten powder solid cover conversion closed resuspended frozen behind }
             nw_deposit_source { struct_size count molten powder solid cover buried converted }
             nw_deposit_surroundings { struct_size reserved voidage wall_temperature gas_density kinematic_viscosity shear_down shear_across gravity_outward gravity_along draw }
-            nw_deposit_losses { struct_size reserved mass heat_taken heat_to_coolant heat_of_fusion deposit_resistance }
+            nw_deposit_losses { struct_size reserved mass heat_taken heat_to_coolant heat_of_fusion heat_released deposit_resistance }
             nw_walk { struct_size reserved seed key step duration relaxation_time friction_velocity kinematic_viscosity wall_distance normal flow core_fluctuation core_time core_gradient values velocity longest_step }
         }
     };

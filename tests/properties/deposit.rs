@@ -4,7 +4,7 @@
 use nearwall::Model;
 use nearwall::deposit::conduction::{Coolant, HotSide, STEFAN_BOLTZMANN};
 use nearwall::deposit::{
-    CapturedParticles, Deposit, DepositSource, PROCESS_COUNT, Surroundings, VoidGas, WallCooling,
+    CapturedParticles, Deposit, DepositSource, PROCESS_COUNT, Surroundings, VapourSide, VoidGas, WallCooling,
 };
 use proptest::prelude::*;
 
@@ -58,7 +58,7 @@ fn cooling() -> impl Strategy<Value = WallCooling> {
                     particle_flux: 0.0,
                 },
                 void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
-                vapour: None,
+                vapour: VapourSide::default(),
             }
         },
     )
@@ -165,7 +165,7 @@ proptest! {
                     particle_flux: 0.0,
                 },
                 void_gas: VoidGas { conductivity: 0.06, temperature: 800.0, exponent: VoidGas::AIR },
-                vapour: None,
+                vapour: VapourSide::default(),
             };
             let around = Surroundings { voidage, cooling: Some(same), ..Surroundings::default() };
             for _ in 0..3 {

@@ -91,7 +91,8 @@ class nw_wall_cooling(Structure):
         ("coolant_coefficient", c_double), ("wall_resistance", c_double), ("gas_temperature", c_double),
         ("gas_coefficient", c_double), ("emissivity", c_double), ("irradiation", c_double),
         ("further_flux", c_double), ("gas_conductivity", c_double), ("void_temperature", c_double),
-        ("other_conductivity", c_double), ("other_temperature", c_double), ("vapour_fraction", c_double)]
+        ("other_conductivity", c_double), ("other_temperature", c_double), ("vapour_fraction", c_double),
+        ("vapour_coefficient", c_double)]
 
 
 class nw_wall_heat(Structure):
@@ -127,7 +128,7 @@ class nw_deposit_losses(Structure):
     _fields_ = [
         ("struct_size", c_uint32), ("reserved", c_uint32), ("mass", c_double * PROCESSES),
         ("heat_taken", c_double), ("heat_to_coolant", c_double), ("heat_of_fusion", c_double),
-        ("deposit_resistance", c_double)]
+        ("heat_released", c_double), ("deposit_resistance", c_double)]
 
 
 class nw_walk(Structure):

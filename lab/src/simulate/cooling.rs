@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 
 use super::gas::Gas;
 use super::geometry::required_within;
+use nearwall::deposit::VapourSide;
 use nearwall::deposit::conduction::{Coolant, HotSide, STEFAN_BOLTZMANN};
 use nearwall::input::{InputError, Section};
 use nearwall::model::{Model, WallCooling};
@@ -86,7 +87,7 @@ impl Cooling {
             wall_resistance: self.wall_resistance,
             hot,
             void_gas,
-            vapour: None,
+            vapour: VapourSide::default(),
         }
     }
 }

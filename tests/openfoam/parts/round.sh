@@ -59,7 +59,7 @@ heat_of() { # start-folder
     local f patch column
     for patch in floor lid sides; do
         f="$(folder limestoneCloud1 "$1")/$patch.heat.dat"
-        for column in gas_J radiation_J particles_J coolant_J melting_J landed lagging_J waiting_J; do
+        for column in gas_J radiation_J particles_J condensation_J coolant_J melting_J landed lagging_J waiting_J; do
             echo "$patch-$column $(last "$f" "$column")"
         done
     done
