@@ -320,7 +320,7 @@ fn with_the_papers_number(compared: &Compared) -> Result<Claim> {
         ComplianceFit::of(compared.k, MEETING_TROIANO, &compared.past)?.largest,
     )
     .because(
-        "for k of wax on Pyrex elastic theory does not rise towards 1: the tangential contact has swung \
+        "For k of wax on Pyrex elastic theory does not rise towards 1. The tangential contact has swung \
          through about three quarters of a period when the sphere leaves (√(7k/2)/2 for stiffnesses that do \
          not change), so that little of the slip is given back",
     ))

@@ -355,7 +355,7 @@ impl Cases {
             any,
         );
         Ok(claim.because(&format!(
-            "Set 3 has the same dust and slower impacts, yet {} stuck: no law in which the slower of two \
+            "Set 3 has the same dust and slower impacts, yet {} stuck. No law in which the slower of two \
              equal particles sticks first can have both. What differs (plasma, dust temperature, target \
              history) is not in the inputs. The calibrated model uses no fit to captures.",
             stuck[2]

@@ -416,7 +416,7 @@ fn reason(observable: &CampaignObservable, [low, high]: [f64; 2], low_by: f64) -
             )
         }
         _ if low_by > 0.05 => format!(
-            "The effect oblique-angle lowers part of set 1's agglomerates below 0.6, so that set 1 needs a \
+            "The effect oblique-angle lowers part of set 1's agglomerates below 0.6. So set 1 needs a \
              larger fraction, and this set has fewer oblique impacts. Band: 95 % binomial. {drawn}"
         ),
         _ => format!("Band: 95 % binomial. {drawn}"),

@@ -230,7 +230,7 @@ fn kinematic_viscosity(shelf: &WallMaterial) -> Result<Claim> {
         slag[0] > 0.5e-5 && slag[1] < 1.5e-4,
     )
     .because(&format!(
-        "The slag's own numbers of the same sentence ({} Pa s, {} kg/m³) span two decades, {:.0} times \
+        "The slag's own numbers ({} Pa s, {} kg/m³) span two decades. They lie {:.0} times \
          below and {:.0} times above those of the wax. The wax covers the middle.",
         span(viscosity),
         span(density),

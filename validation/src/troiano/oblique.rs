@@ -120,7 +120,7 @@ fn middle_expression() -> Claim {
         (printed_middle(ANGLES[0]) - right(ANGLES[0])).abs() < 0.01,
     )
     .because(
-        "With v_n = v sin(alpha) and v_t = v cos(alpha) the printed fraction divides the angle out and has \
+        "The printed fraction divides the angle out and has \
          no root: it is (e_n² + e_t²)/2 at every angle. The intended expression is the root of (v_n,r² + \
          v_t,r²)/(v_n,i² + v_t,i²); the right-hand side is right and is what the library computes.",
     )

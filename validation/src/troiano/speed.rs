@@ -275,7 +275,7 @@ fn adhesion_claims(model: &Model, centre: &Centre) -> Result<Vec<Claim>> {
             over(slow) < 1.05,
         )
         .because(&format!(
-            "At {slow} m/s adhesion takes {:.0} % of the energy that plasticity leaves; with the printed \
+            "At {slow} m/s adhesion takes {:.0} % of the energy that plasticity leaves. With the printed \
              v_s, ten times too small, the effect would be invisible.",
             100.0 * (1.0 - (centre.e_n(slow) / centre.without_adhesion(slow)).powi(2))
         )),
