@@ -74,7 +74,7 @@ program deposit_test
     if (modulo(impact%key, 4_c_int64_t) == 3 .and. deposit%molten + deposit%frozen + deposit%powder <= 0) &
       call must(nw_deposit_initial(model, 0.4d0, deposit))
     call must(nw_film_velocity(model, deposit, impact%T_w, 9.81d0, velocity))
-    print '(i0, 22(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
+    print '(i0, *(1x, es24.16e3))', outcome%stuck, impact%layer_thickness, impact%coverage, impact%melt_thickness, &
       deposit%molten, deposit%powder, deposit%solid, deposit%cover, deposit%conversion, velocity, &
       deposit%frozen, deposit%behind, deposit%closed, deposit%resuspended, heat%surface_temperature, &
       heat%wall_temperature, heat%heat_flux, heat%coolant_flux, heat%deposit_resistance, losses%mass

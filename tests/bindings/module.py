@@ -84,7 +84,7 @@ wind = dict(kinematic_viscosity=1.5e-5, shear_down=1.2e6)
 unknown_gas = nearwall.DepositSurroundings(0.4, **wind)
 refused(nearwall.Error, lambda: model.advance_deposit(deposit, unknown_gas, 60.0), "an input is not finite or outside its bounds")
 lost = model.advance_deposit(deposit, nearwall.DepositSurroundings(0.4, gas_density=1.2, **wind), 60.0)
-assert lost == {"resuspended": 0.0, "shed": 0.0} and model.wall_processes(0) == ["melting", "sintering"], lost
+assert lost == {"condensed": 0.0, "resuspended": 0.0, "shed": 0.0} and model.wall_processes(0) == ["melting", "sintering"], lost
 assert bytes(deposit) == bytes(model.initial_deposit(0, 0.4)), "a model without a table of adhesion lost powder"
 refused(TypeError, lambda: model.add_captured(nearwall.DepositSource(), 1.0, 2300.0, 900.0, diameter=1e-4), "no such input: diameter")
 refused(TypeError, lambda: model.resolve(v_n, diameter=d), "no such input: diameter")

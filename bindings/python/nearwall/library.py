@@ -682,7 +682,7 @@ class Model:
                         cooling: Optional[WallCooling] = None) -> Dict[str, float]:
         """Advances a deposit by a step of a `duration` [s]: with the `cooling` of its wall it melts, freezes and sinters, by
         the heat of a gas_coefficient that is finite; the gas carries loose powder away, and what the wall cannot hold falls off. Returns the mass [kg/m2] that left by each
-        process, as `resuspended` and `shed`. The last two act on walls with a table `resuspension` or `shedding` in the model
+        process, as `resuspended` and `shed`, or came, as `condensed`. These act on walls with a table of the process in the model
         file. Raises Error, and leaves the deposit as it is, where a number has no meaning or the model has no such wall."""
         losses = nw_deposit_losses()
         _check(_library.nw_deposit_losses_init(byref(losses)))
@@ -692,7 +692,7 @@ class Model:
         masses = {}
         for index, mass in enumerate(losses.mass):
             masses[_library.nw_process_loss(index).decode()] = mass
-            masses[_library.nw_process_gain(index).decode()] = -mass
+            masses[_library.nw_process_gain(index).decode()] = 0.0 - mass  # no negative zero
         del masses[""]
         return masses
 
