@@ -134,7 +134,7 @@ def compare_deposit(impacts, output, *others):
     for number, (stuck, _, coverage, _, molten, powder, solid, cover, conversion, velocity, *cooled) in enumerate(rows):
         frozen, behind, closed, resuspended, surface, under, flux, passed, resistance, *conserved, taken_away, fallen = cooled
         outside = 1 - behind if molten + frozen > 0 else 1
-        assert conserved == [0, 0] and (number % 4 == 3 or fallen == 0), f"impact {number}: {cooled}"
+        assert conserved == [0, 0, 0] and (number % 4 == 3 or fallen == 0), f"impact {number}: {cooled}"
         mass += stuck * (1 + number % 7) / 1024
         carbon += stuck * (1 + number % 7) / 1024 * (0.5 if number % 2 else 1)
         assert 0 <= coverage <= 1 and 0 <= resuspended <= 1
