@@ -144,6 +144,9 @@ void Foam::nearWall::wallHeat::addCaptured
 
 void Foam::nearWall::wallHeat::beginStep(const scalar flow)
 {
+    // Without a message between ranks
+    if (patches_.empty()) return;
+
     const label n = patches_.size();
     scalarList sums(2*n, scalar(0));
     forAll(patches_, i)
@@ -341,6 +344,8 @@ Foam::dictionary Foam::nearWall::wallHeat::report
     const bool writeRow
 )
 {
+    if (patches_.empty()) return dictionary();
+
     started_ = true;
     const label n = patches_.size();
     scalarList sums(2*n, scalar(0));
