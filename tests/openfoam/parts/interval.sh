@@ -1,5 +1,5 @@
 # Cases of run: deposits that advance at an interval of their own.
-#     tests/openfoam/run resting   by hand: what resting powder costs a step of a coal case
+#     tests/openfoam/run powder-cost   by hand: what resting powder costs a step of a coal case
 # shellcheck shell=bash disable=SC2154
 
 # folder keys-of-memory: melt that runs down, powder that sheds in pieces by the rank of its place
@@ -95,29 +95,30 @@ case_interval() {
     grep -q "'interval' \[s\] and 'intervalSteps' are both given" log.both && ok interval/both || bad interval/both "not refused"
 }
 
-# How much longer is a step with powder in the wind on all faces of a wide duct of a coal cloud, 2 mm and 2 cells high? Without memory, with deposits at an interval of 10 steps and at each step: CPU time of the last ten of 12 steps, largest memory
-case_resting() {
+# How much longer is a step with powder in the wind on all faces of a wide duct of a coal cloud, 2 mm and 2 cells high? Without
+# memory, with deposits at an interval of 10 steps and at each step: CPU time of the last ten of 12 steps, largest memory
+case_powder-cost() {
     local side="${SIDE:-224}" how time bare=""
     for how in none interval each; do
-        build coal "$work/resting-$how" || return
+        build coal "$work/powder-cost-$how" || return
         sed -i "s/(4 4 4)/($side $side 2)/" system/blockMeshDict
         sed -i 's/(0 0 1) (1 0 1) (1 1 1) (0 1 1)/(0 0 0.02) (1 0 0.02) (1 1 0.02) (0 1 0.02)/' system/blockMeshDict
         sed -i 's/uniform (0 0 0);/uniform (20 0 0);/' 0/U
         sed -i 's/deltaT .*/deltaT 2e-5;/' system/controlDict
         sed -i 's/ 0\.\(0[0-9]*\))$/ 0.00\1)/' constant/parcels
         quiet blockMesh blockMesh || return
-        resting_walls "$how"
+        powder_walls "$how"
         settings 0.00024 1
-        measured spent "$solver" || { bad "resting/$how" "the solver failed, see $PWD/log.measured"; return; }
+        measured spent "$solver" || { bad "powder-cost/$how" "the solver failed, see $PWD/log.measured"; return; }
         time="$(awk '/^ExecutionTime/ { t[++n] = $3 } END { print (t[n] - t[n - 10])/10 }' log.measured)"
         [ "$how" != none ] || bare="$time $(cut -d' ' -f2 spent)"
-        ok "resting/$how ($((2*side*side)) faces: $time s a step, $(echo "$time $(cut -d' ' -f2 spent) $bare" | awk -v n="$((2*side*side))" \
+        ok "powder-cost/$how ($((2*side*side)) faces: $time s a step, $(echo "$time $(cut -d' ' -f2 spent) $bare" | awk -v n="$((2*side*side))" \
             '{ printf "%.1f %% and %.2f kB a face", 100*($1/$3 - 1), 1000*($2 - $4)/n }') more than without memory)"
     done
 }
 
 # how: powder of 1 kg/m2 that the gas may carry away, on floor and lid
-resting_walls() {
+powder_walls() {
     local cloud=coalCloud1 f value
     sed -i 's/^\[walls.default\]/&\nresuspension = { work_of_adhesion = 0.56 }\nshedding = { tensile_strength = 1e4, shear_strength = 1e4 }/; s/^\[walls.floor\]/&\nresuspension = { work_of_adhesion = 0.56 }\nshedding = { tensile_strength = 1e4, shear_strength = 1e4 }/' constant/nearWall.toml
     sed -i 's/lid .*/lid { type interact; wall floor; }/' constant/interaction
