@@ -2,6 +2,22 @@
 # down.
 # shellcheck shell=bash disable=SC2154
 
+# Parcels of 400 K stick to walls of 300 K and freeze to powder, which damps later rebounds
+freezing_powder() {
+    cat >> constant/nearWall.toml <<'END'
+[[effects]]
+kind = "melting-transition"
+temperature = 350
+width = 1
+[[effects]]
+kind = "powder-layer"
+thickness = 0.128e-3
+residual = 0.25
+END
+    sed -i '1i particleTemperature 400; memory {}' constant/interaction
+    sed -i 's/type interact;/type interact; wallTemperature 300;/' constant/interaction
+}
+
 # Four parcels of 2.5e-5 kg freeze on one face of 6.25e-4 m2, in four steps. By hand:
 # 0.16 kg/m2 of spheres of 1000 kg/m3 and 1e-4 m, so a layer of 3.2e-4 m with half
 # voids and a projected area of 2.4. A fifth, solid one comes after a restart and
@@ -24,18 +40,7 @@ subModels { injectionModels {
     }
 } }
 END
-    cat >> constant/nearWall.toml <<'END'
-[[effects]]
-kind = "melting-transition"
-temperature = 350
-width = 1
-[[effects]]
-kind = "powder-layer"
-thickness = 0.128e-3
-residual = 0.25
-END
-    sed -i '1i particleTemperature 400; memory {}' constant/interaction
-    sed -i 's/type interact;/type interact; wallTemperature 300;/' constant/interaction
+    freezing_powder
     settings 0.04 0.04
     solve memory first "$solver" || return
     f="$(folder kinematicCloud)/floor.wall.dat"

@@ -2,19 +2,24 @@
 # walls beside a cyclic pair.
 # shellcheck shell=bash disable=SC2154
 
-# The whole mesh travels with (0.4 0 0.5) m/s
-travelling() {  # folder
-    build kinematic "$1" || return
+# The whole mesh moves as one body; versions want the coefficients in a dictionary or without
+solid_body() {  # motion coefficients
     solver=uncoupledKinematicParcelDyMFoam
-    cat > constant/dynamicMeshDict <<'END'
+    cat > constant/dynamicMeshDict <<END
 FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
 dynamicFvMesh       dynamicMotionSolverFvMesh;
 motionSolverLibs    (fvMotionSolvers);
 motionSolver        solidBody;
-solidBodyMotionFunction linearMotion;
-linearMotionCoeffs  { velocity (0.4 0 0.5); }
-velocity            (0.4 0 0.5);
+solidBodyMotionFunction $1;
+${1}Coeffs { $2 }
+$2
 END
+}
+
+# The whole mesh travels with (0.4 0 0.5) m/s
+travelling() {  # folder
+    build kinematic "$1" || return
+    solid_body linearMotion "velocity (0.4 0 0.5);"
     sed -i 's/^    outlet/    floor { type movingWallVelocity; value uniform (0 0 0); }\n    outlet/' 0/U
     # At a restart OpenFOAM looks for the places of injection in the mesh again
     echo 'subModels { injectionModels { model1 { ignoreOutOfBounds true; } } }' >> constant/kinematicCloudProperties
@@ -172,16 +177,7 @@ floor_hits() {
 # of powder whose shear strength is half of its weight, times a scatter
 turning_box() { # folder spread
     build kinematic "$1" || return
-    solver=uncoupledKinematicParcelDyMFoam
-    cat > constant/dynamicMeshDict <<'END'
-FoamFile { version 2.0; format ascii; class dictionary; object dynamicMeshDict; }
-dynamicFvMesh       dynamicMotionSolverFvMesh;
-motionSolverLibs    (fvMotionSolvers);
-motionSolver        solidBody;
-solidBodyMotionFunction rotatingMotion;
-rotatingMotionCoeffs { origin (0.05 0.05 0.05); axis (0 1 0); omega 20; }
-origin (0.05 0.05 0.05); axis (0 1 0); omega 20;
-END
+    solid_body rotatingMotion "origin (0.05 0.05 0.05); axis (0 1 0); omega 20;"
     sed -i 's/(0 0 0)/(0 0 -9.81)/' constant/g
     sed -i "s/^\[walls.floor\]/&\nshedding = { tensile_strength = 1e9, shear_strength = 9.81, spread = $2 }/" constant/nearWall.toml
     echo 'subModels { injectionModels { model1 { massTotal 0; ignoreOutOfBounds true; } } }' >> constant/kinematicCloudProperties
@@ -241,18 +237,7 @@ case_travelling-memory() {
       echo "((0.0357 0.037 0.0075) (0.0333 0.037 0.0175) (0.0309 0.037 0.0275) (0.0285 0.037 0.0375) (0.0165 0.037 0.0875))"
     } > constant/parcels
     echo 'subModels { injectionModels { model1 { massTotal 1.25e-4; } } }' >> constant/kinematicCloudProperties
-    cat >> constant/nearWall.toml <<'END'
-[[effects]]
-kind = "melting-transition"
-temperature = 350
-width = 1
-[[effects]]
-kind = "powder-layer"
-thickness = 0.128e-3
-residual = 0.25
-END
-    sed -i '1i particleTemperature 400; memory {}' constant/interaction
-    sed -i 's/type interact;/type interact; wallTemperature 300;/' constant/interaction
+    freezing_powder
     settings 0.02 0.02 startTime ascii
     solve travelling-memory first "$solver" || return
     f="$(folder kinematicCloud)/floor.wall.dat"
