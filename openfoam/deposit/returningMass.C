@@ -80,29 +80,11 @@ Foam::nearWall::returningMass::returningMass
             "0, for that of what landed, or more"
         )
     ),
-    waiting_(readWallField(mesh, cloudName + ":waitingMass", dimMass/dimArea))
+    waiting_(readWallField(mesh, cloudName + ":waitingMass", dimMass/dimArea)),
+    sums_(mesh, patches, names, saved, folder, ".returned.dat")
 {
     // Another run may go on with what waits
     if (!on_) setWriteOption(waiting_, IOobject::NO_WRITE);
-    added_.resize(patches_.size(), std::vector<kahanSum>(nTerms));
-    for (const label patchi : patches_)
-    {
-        const word& name = patchesOf(mesh)[patchi].name();
-        sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
-        tables_.emplace_back(folder/(name + ".returned.dat"));
-    }
-}
-
-
-void Foam::nearWall::returningMass::add
-(
-    const label i,
-    const label t,
-    const scalar value
-)
-{
-    const scalar added = added_[i][t].add(value);
-    sums_[i].add(t, added - sums_[i].added()[t]);
 }
 
 
@@ -116,10 +98,10 @@ void Foam::nearWall::returningMass::addCaptured(const impactEvent& e)
     {
         if (patches_[i] != e.patch) continue;
 
-        add(i, landedMass, e.mass);
-        add(i, landedVolume, area*2/3*d);
-        add(i, landedArea, area);
-        add(i, landed, 1);
+        sums_.add(i, landedMass, e.mass);
+        sums_.add(i, landedVolume, area*2/3*d);
+        sums_.add(i, landedArea, area);
+        sums_.add(i, landed, 1);
     }
 }
 
@@ -137,7 +119,7 @@ void Foam::nearWall::returningMass::addLost
 
     const label patchi = patches_[i];
     waiting_.boundaryFieldRef()[patchi][facei] += mass;
-    add(i, left, mass*mesh_.magSf().boundaryField()[patchi][facei]);
+    sums_.add(i, left, mass*mesh_.magSf().boundaryField()[patchi][facei]);
 }
 
 
@@ -161,7 +143,7 @@ void Foam::nearWall::returningMass::formParcels
         if (mass <= 0 || mass < acceleration_*least) continue;
 
         waiting[facei] = 0;
-        add(i, returned, mass);
+        sums_.add(i, returned, mass);
         const scalar flow = mass/acceleration_;
         if (sizes_.empty())
         {
@@ -177,7 +159,7 @@ void Foam::nearWall::returningMass::formParcels
                 }
             );
         }
-        add(i, parcels, max(sizes_.size(), 1));
+        sums_.add(i, parcels, max(sizes_.size(), 1));
     }
 }
 
@@ -188,7 +170,7 @@ Foam::nearWall::returningMass::take()
     std::vector<parcel> found;
     if (!on_) return found;
 
-    const List<scalarList> totals(runningTotals::totals(sums_));
+    const List<scalarList> totals(sums_.totals());
     forAll(patches_, i)
     {
         if (totals[i][landed] > 0) formParcels(i, totals[i], found);
@@ -246,7 +228,7 @@ Foam::dictionary Foam::nearWall::returningMass::report
         );
     }
     sumOverRanks(waiting);
-    const List<scalarList> totals(runningTotals::totals(sums_));
+    const List<scalarList> totals(sums_.totals());
     forAll(patches_, i)
     {
         if (totals[i][left] > 0)
@@ -256,7 +238,7 @@ Foam::dictionary Foam::nearWall::returningMass::report
                 << totals[i][parcels] << " parcels: " << totals[i][returned]
                 << " kg, waiting " << waiting[i] << " kg" << nl;
         }
-        if (writeRow) tables_[i].write(row(i, totals[i], waiting[i], time));
+        if (writeRow) sums_.table(i).write(row(i, totals[i], waiting[i], time));
     }
-    return runningTotals::saved(sums_, totals);
+    return sums_.saved(totals);
 }

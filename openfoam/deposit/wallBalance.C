@@ -139,13 +139,11 @@ Foam::nearWall::wallBalance::wallBalance
         signs_.push_back(gains ? -1 : 1);
         if (!losses_.back().empty()) names_.append(word(losses_.back() + "_kg"));
     }
-    added_.resize(patches_.size(), std::vector<kahanSum>(names_.size()));
+    sums_ = patchSums(mesh, patches_, names_, saved, folder, ".wall.dat");
     forAll(patches_, i)
     {
         const label patchi = patches_[i];
-        const word& name = patchesOf(mesh)[patchi].name();
-        sums_.append(runningTotals(names_, saved.subOrEmptyDict(name), name));
-        if (!saved.found(name))
+        if (!saved.found(sums_[i].name()))
         {
             const scalarField& area = mesh.magSf().boundaryField()[patchi];
             const scalarField& molten = fields.on(depositFields::molten, patchi);
@@ -153,20 +151,7 @@ Foam::nearWall::wallBalance::wallBalance
             const scalarField& powder = fields.on(depositFields::powder, patchi);
             add(i, initial, sum((molten + frozen + powder)*area));
         }
-        tables_.emplace_back(folder/(name + ".wall.dat"));
     }
-}
-
-
-void Foam::nearWall::wallBalance::add
-(
-    const label i,
-    const label t,
-    const scalar mass
-)
-{
-    const scalar added = added_[i][t].add(mass);
-    sums_[i].add(t, added - sums_[i].added()[t]);
 }
 
 
@@ -302,6 +287,6 @@ void Foam::nearWall::wallBalance::report
     forAll(patches_, i)
     {
         reportPatch(os, i, faces, totals[i], film);
-        if (writeRow) tables_[i].write(row(i, faces, totals[i], time, cooled[i]));
+        if (writeRow) sums_.table(i).write(row(i, faces, totals[i], time, cooled[i]));
     }
 }

@@ -82,19 +82,12 @@ Foam::nearWall::wallHeat::wallHeat
     (
         readWallField(mesh, cloudName + ":particleHeatFlux", dimPower/dimArea)
     ),
+    sums_(mesh, patches, names, saved, folder, ".heat.dat"),
     started_(!saved.empty()),
     share_(patches.size(), scalar(1)),
     coefficient_(patchesOf(mesh).size()),
     given_(patchesOf(mesh).size())
 {
-    added_.resize(patches_.size(), std::vector<kahanSum>(nTerms));
-    for (const label patchi : patches_)
-    {
-        const word& name = patchesOf(mesh)[patchi].name();
-        sums_.append(runningTotals(names, saved.subOrEmptyDict(name), name));
-        tables_.emplace_back(folder/(name + ".heat.dat"));
-    }
-
     // Zero where a condition cools a wall whose deposit does not know of it
     forAll(patchesOf(mesh), patchi)
     {
@@ -102,18 +95,6 @@ Foam::nearWall::wallHeat::wallHeat
         coefficient_[patchi] = none;
         given_[patchi] = none;
     }
-}
-
-
-void Foam::nearWall::wallHeat::add
-(
-    const label i,
-    const label t,
-    const scalar value
-)
-{
-    const scalar added = added_[i][t].add(value);
-    sums_[i].add(t, added - sums_[i].added()[t]);
 }
 
 
@@ -138,7 +119,7 @@ void Foam::nearWall::wallHeat::addCaptured
     capacity_.boundaryFieldRef()[e.patch][e.face] += capacity;
     enthalpy_.boundaryFieldRef()[e.patch][e.face] +=
         mass*heat + capacity*e.impact.T_w;
-    add(place(e.patch), landed, 1);
+    sums_.add(place(e.patch), landed, 1);
 }
 
 
@@ -155,7 +136,7 @@ void Foam::nearWall::wallHeat::beginStep(const scalar flow)
         {
             sums[i] += held != 0;
         }
-        if (Pstream::master()) add(i, duration, flow);
+        if (Pstream::master()) sums_.add(i, duration, flow);
         sums[n + i] = sums_[i].added()[landed];
     }
     sumOverRanks(sums);
@@ -187,8 +168,8 @@ void Foam::nearWall::wallHeat::collect
     const scalarField fromRadiation(before*condition.fromRadiation());
     scalarField& taken = taken_.boundaryFieldRef()[patchi];
     taken += fromGas + fromRadiation;
-    add(i, gas, sum(fromGas*area));
-    add(i, radiation, sum(fromRadiation*area));
+    sums_.add(i, gas, sum(fromGas*area));
+    sums_.add(i, radiation, sum(fromRadiation*area));
 }
 
 
@@ -234,8 +215,6 @@ void Foam::nearWall::wallHeat::archive(stateArchive& state)
         }
     }
     state(sums_);
-    state(added_);
-    state.each(tables_);
     state(started_);
     state(share_);
     state(coefficient_);
@@ -286,10 +265,10 @@ void Foam::nearWall::wallHeat::add
     lag_.boundaryFieldRef()[patchi][facei] +=
         taken + brought - crossed.heat_taken;
     taken = 0;
-    add(i, particles, area*brought);
-    add(i, condensation, area*crossed.heat_released);
-    add(i, coolant, area*crossed.heat_to_coolant);
-    add(i, melting, area*crossed.heat_of_fusion);
+    sums_.add(i, particles, area*brought);
+    sums_.add(i, condensation, area*crossed.heat_released);
+    sums_.add(i, coolant, area*crossed.heat_to_coolant);
+    sums_.add(i, melting, area*crossed.heat_of_fusion);
 }
 
 
@@ -332,7 +311,7 @@ void Foam::nearWall::wallHeat::reportPatch
     row.add("lagging_J", lagging);
     row.add("waiting_J", waiting);
     row.add("residual", residual);
-    tables_[i].write(row);
+    sums_.table(i).write(row);
 }
 
 
@@ -369,10 +348,10 @@ Foam::dictionary Foam::nearWall::wallHeat::report
         );
     }
     sumOverRanks(sums);
-    const List<scalarList> totals(runningTotals::totals(sums_));
+    const List<scalarList> totals(sums_.totals());
     forAll(patches_, i)
     {
         reportPatch(os, i, totals[i], sums[i], sums[n + i], time, writeRow);
     }
-    return runningTotals::saved(sums_, totals);
+    return sums_.saved(totals);
 }
