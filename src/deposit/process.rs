@@ -199,22 +199,22 @@ pub enum DepositHeat {
         front: FrontStep,
         /// What processes released at the surface [J/m²].
         released: f64,
+        /// Thermal resistance at the start of the step [m² K/W].
+        resistance: f64,
     },
 }
 
 impl DepositHeat {
-    /// The heat that crossed the deposit, whose resistance was `resistance` [m² K/W] at the start.
-    pub(crate) fn crossed(&self, resistance: f64) -> StepHeat {
-        match self {
-            Self::Cooled { front: FrontStep { from_gas, to_coolant, fusion, .. }, released, .. } => {
-                StepHeat {
-                    from_gas: *from_gas - released,
-                    released: *released,
-                    to_coolant: *to_coolant,
-                    fusion: *fusion,
-                    deposit_resistance: resistance,
-                }
-            }
+    /// The heat that crossed the deposit.
+    pub(crate) fn crossed(&self) -> StepHeat {
+        match *self {
+            Self::Cooled { front, released, resistance, .. } => StepHeat {
+                from_gas: front.from_gas - released,
+                released,
+                to_coolant: front.to_coolant,
+                fusion: front.fusion,
+                deposit_resistance: resistance,
+            },
             _ => StepHeat::default(),
         }
     }
@@ -257,8 +257,8 @@ impl Step<'_> {
                 Some((cooling.vapour_side(), flow.surface()))
             }
             (None, _) => {
-                let given = VapourSide { coefficient: None, fraction: None };
-                self.surroundings.wall_temperature.map(|temperature| (given, temperature))
+                let temperature = self.surroundings.wall_temperature;
+                temperature.map(|temperature| (VapourSide::default(), temperature))
             }
             _ => None,
         }

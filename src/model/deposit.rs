@@ -253,14 +253,13 @@ impl Model {
         surroundings.check()?;
         at_least_zero("duration", duration)?;
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let mut resistance = 0.0;
         let heat = match (&surroundings.cooling, surroundings.wall_temperature) {
             (Some(cooling), _) => {
                 let (thermal, flow, _) = self.thermal_layers(wall, deposit, surroundings.voidage, cooling)?;
-                resistance = thermal.resistance(&deposit.layers());
+                let resistance = thermal.resistance(&deposit.layers());
                 let front = thermal.after_flow(&deposit.layers(), &flow, duration)?;
                 let released = (thermal.hot.particle_flux - cooling.hot.particle_flux) * duration;
-                DepositHeat::Cooled { flow, front, released }
+                DepositHeat::Cooled { flow, front, released, resistance }
             }
             (None, Some(temperature)) => DepositHeat::Isothermal {
                 liquid: self.slag_melts_at(of).map(|melts_at| temperature >= melts_at),
@@ -269,7 +268,7 @@ impl Model {
         };
         let step = Step { powder: self, surroundings, heat, duration };
         let (left, losses) = of.processes.advance(deposit, &step);
-        Ok((left, losses, heat.crossed(resistance)))
+        Ok((left, losses, heat.crossed()))
     }
 
     /// Whether the stickiness of the particles depends on their temperature.
