@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple, Union
 
 from .frames import Table, kind_of, names, source
 from .library import Model
-from .pages import Page, Run, begin, options
+from .pages import Page, Run, axes, begin, options
 from .prediction import predict
 from .wheel import AnyPath, compiled, model_of, warn
 
@@ -145,8 +145,7 @@ class Diagnosis(Page):
              ax: Any = None) -> Any:
         """Draws what was measured over a column, with the base and the extended model. By default the observable ("e_n", "e_t"
         or "capture_efficiency") and the first column of the first finding."""
-        import matplotlib.pyplot
-        ax = ax or matplotlib.pyplot.subplots(layout="constrained")[1]
+        ax = ax or axes()
         first = self.findings[0] if self.findings else None
         observable = observable or (first.observable if first else "e_n")
         observable = "capture_efficiency" if observable == "capture" else observable

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import json
 import os
 import pathlib
@@ -54,12 +53,8 @@ class Run:
         """The path of a table; a frame becomes a file."""
         if kind_of(table) is None:
             return os.fsdecode(table)
-        columns = {str(name): numpy.frombuffer(column) if isinstance(column, bytes) else column for name, column in source(table)}
         path = os.path.join(self.folder, "frame")
-        with open(path, "w", newline="", encoding="utf-8") as file:
-            rows = csv.writer(file)
-            rows.writerow(columns)
-            rows.writerows([_cell(value) for value in row] for row in zip(*columns.values()))
+        pathlib.Path(path).write_bytes(compiled().csv_of(source(table)))
         return path
 
     def model(self, model: Union[Model, AnyPath]) -> str:
@@ -99,15 +94,6 @@ class Run:
         return make(arrays(compiled().read_csv(os.path.join(self.out, name))), kind)
 
 
-def _cell(value: Any) -> str:
-    """A cell; whole numbers have no point, so that labels such as 3 stay as they are."""
-    if value is None or value != value:
-        return ""
-    if isinstance(value, str):
-        return value
-    return str(int(value)) if float(value).is_integer() and abs(value) < 1e16 else repr(float(value))
-
-
 def begin() -> "tempfile.TemporaryDirectory[str]":
     """A folder for a run."""
     return tempfile.TemporaryDirectory(prefix="nearwall-")
@@ -144,7 +130,7 @@ class Comparison(Page):
     def plot(self, measure: str = "log_likelihood", ax: Any = None) -> Any:
         """Draws a measure of each model with its 95 % interval: "log_likelihood", "rmse_e_n", "rmse_e_t", "log_loss_stick"."""
         models = [model for model in self.record["models"] if model[measure]]
-        ax = ax or _axes()
+        ax = ax or axes()
         for place, model in enumerate(models):
             value, ends = model[measure]["value"], model[measure]["ci95"]
             low, high = ends or (value, value)
@@ -179,7 +165,7 @@ class Map(Page):
 
     def plot(self, quantity: str = "p_stick", ax: Any = None) -> Any:
         """Draws "e_n", "e_t" or "p_stick" in colours over both inputs."""
-        ax = ax or _axes()
+        ax = ax or axes()
         x, y, z = (numpy.asarray(self.frame[name], float) for name in (*self.axes, quantity))
         columns, rows = numpy.unique(x), numpy.unique(y)
         grid = numpy.full((rows.size, columns.size), numpy.nan)
@@ -228,7 +214,7 @@ class Sensitivity(Page):
 
     def plot(self, wall: Optional[str] = None, most: int = 12, ax: Any = None) -> Any:
         """Draws the captured share of a wall, by default the first, at both ends of the range of each number."""
-        ax = ax or _axes()
+        ax = ax or axes()
         numbers = [number for number in self.record["numbers"] if number["largest"] > 0][:most]
         for place, number in enumerate(numbers):
             one = next(one for one in number["walls"] if wall in (None, one["wall"]))
@@ -271,6 +257,7 @@ def report(*cases: AnyPath) -> Page:
         return Page(texts["report.html"], texts)
 
 
-def _axes() -> Any:
+def axes() -> Any:
+    """The axes of a new figure."""
     import matplotlib.pyplot
     return matplotlib.pyplot.subplots(layout="constrained")[1]

@@ -27,6 +27,7 @@ fn _compiled(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(prediction::predict, module)?)?;
     module.add_function(wrap_pyfunction!(simulation::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(materials::materials, module)?)?;
+    module.add_function(wrap_pyfunction!(table::csv_of, module)?)?;
     module.add_function(wrap_pyfunction!(table::read_csv, module)?)?;
     module.add_function(wrap_pyfunction!(openfoam::clouds, module)?)?;
     module.add_function(wrap_pyfunction!(openfoam::tables, module)?)?;

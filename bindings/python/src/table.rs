@@ -164,6 +164,16 @@ pub fn floats(py: Python<'_>, values: &[f64]) -> Py<PyAny> {
     PyByteArray::new(py, &bytes).into_any().unbind()
 }
 
+/// The text of a table as a CSV file.
+#[pyfunction]
+pub fn csv_of(py: Python<'_>, data: TableSource) -> PyResult<Vec<u8>> {
+    run(py, |_| {
+        let mut text = Vec::new();
+        data.open()?.read_to_end(&mut text)?;
+        Ok(text)
+    })
+}
+
 /// Reads the columns of a CSV file.
 #[pyfunction]
 pub fn read_csv(py: Python<'_>, path: String) -> PyResult<Vec<ForPython>> {
