@@ -8,7 +8,7 @@ use super::boundary::{guarded_status, initialise, reader, sized};
 use super::cooled_wall::nw_wall_cooling;
 use super::deposit::nw_deposit;
 use super::types::{NW_BAD_STATE, NW_NULL_POINTER, NW_UNKNOWN_WALL, nw_model, nw_status, zero_by_default};
-use crate::deposit::{PROCESS_COUNT, PROCESSES, StepHeat, Surroundings, WallCooling, WallGas};
+use crate::deposit::{PROCESS_COUNT, PROCESSES, Surroundings, WallCooling, WallGas};
 
 /// Number of processes that change a deposit.
 pub const NW_PROCESSES: usize = 5;
@@ -135,33 +135,24 @@ pub unsafe extern "C" fn nw_deposit_advance(
         let (model, surroundings, before, lost) = unsafe {
             (reader(model)?, sized(surroundings)?, sized(deposit.cast_const())?, sized(losses.cast_const())?)
         };
-        let cooling = if cooling.is_null() {
-            None
-        } else {
-            // SAFETY: not null, and the caller's promise.
-            let cooling = unsafe { sized(cooling)? };
-            let is_given = cooling.coolant_temperature != 0.0 || cooling.gas_temperature != 0.0;
-            if is_given { Some(cooling.sound()?.to_cooling()) } else { None }
-        };
+        // SAFETY: the caller's promise.
+        let cooling = unsafe { cooling_of(cooling)? };
         let (wall, given) = (before.wall as usize, before.sound()?.to_deposit());
         let surroundings = surroundings.to_surroundings(cooling);
         let (left, mass, heat) = model.inner().advance(wall, &given, &surroundings, duration)?;
         let after = before.with(&left).sound()?;
-        let StepHeat { from_gas, released, to_coolant, fusion, deposit_resistance } = heat;
-        let numbers = [from_gas, to_coolant, fusion, released, deposit_resistance];
-        if !mass.iter().chain(&numbers).all(|number| number.is_finite()) {
-            return Err(NW_BAD_STATE);
-        }
-        let [heat_taken, heat_to_coolant, heat_of_fusion, heat_released, deposit_resistance] = numbers;
         let lost = nw_deposit_losses {
             mass,
-            heat_taken,
-            heat_to_coolant,
-            heat_of_fusion,
-            heat_released,
-            deposit_resistance,
+            heat_taken: heat.from_gas,
+            heat_to_coolant: heat.to_coolant,
+            heat_of_fusion: heat.fusion,
+            heat_released: heat.released,
+            deposit_resistance: heat.deposit_resistance,
             ..lost
         };
+        if !is_finite(&lost) {
+            return Err(NW_BAD_STATE);
+        }
         // SAFETY: both checked just above.
         unsafe {
             deposit.write_unaligned(after);
@@ -170,6 +161,25 @@ pub unsafe extern "C" fn nw_deposit_advance(
         Ok(())
     };
     guarded_status(advance)
+}
+
+/// The cooling of a wall; `None` where the pointer is null or nothing was set.
+///
+/// # Safety
+/// `cooling` begins with its `struct_size` unless it is null.
+unsafe fn cooling_of(cooling: *const nw_wall_cooling) -> Result<Option<WallCooling>, nw_status> {
+    if cooling.is_null() {
+        return Ok(None);
+    }
+    // SAFETY: not null, and the caller's promise.
+    let cooling = unsafe { sized(cooling)? };
+    let is_given = cooling.coolant_temperature != 0.0 || cooling.gas_temperature != 0.0;
+    if is_given { Ok(Some(cooling.sound()?.to_cooling())) } else { Ok(None) }
+}
+
+fn is_finite(lost: &nw_deposit_losses) -> bool {
+    let heats = [lost.heat_taken, lost.heat_to_coolant, lost.heat_of_fusion, lost.heat_released];
+    lost.mass.iter().chain(&heats).chain([&lost.deposit_resistance]).all(|number| number.is_finite())
 }
 
 /// Finds the processes that act on a wall of the model: bit `i` of `processes` is set where process

@@ -124,10 +124,7 @@ impl Model {
     ) -> Result<(ThermalLayers, HeatFlow, f64), WallHeatError> {
         super::deposit::check_voidage(voidage)?;
         let of = self.walls.get(wall).ok_or(ImpactError::NoSuchWall(wall))?;
-        let melted = self.melt_material(of);
         let masses = deposit.layers();
-        let (slag_melts_at, powder_melts_at) =
-            (self.slag_melts_at(of), self.powder_melts_at(deposit.conversion));
         let start = 0.5 * (cooling.hot.gas_temperature + cooling.coolant.temperature);
         let mut means = [start; 4];
         // What processes release at the surface [W/m²]. A surface that is held at a temperature needs no balance.
@@ -141,15 +138,7 @@ impl Model {
                 // What melt will enclose of the outer powder.
                 means[0] = means[3];
             }
-            let thermal = ThermalLayers {
-                coolant: cooling.coolant,
-                wall_resistance: cooling.wall_resistance,
-                hot: HotSide { particle_flux: cooling.hot.particle_flux + released, ..cooling.hot },
-                resistance_per_mass: self.resistances_per_mass(of, deposit, voidage, cooling, means)?,
-                slag_melts_at,
-                powder_melts_at,
-                heat_of_fusion: melted.heat_of_fusion_near(slag_melts_at.unwrap_or(start)).unwrap_or(0.0),
-            };
+            let thermal = self.layers_at_means((of, deposit), voidage, cooling, means, released)?;
             let flow = thermal.flow(&masses)?;
             let found = flow.sides.outwards().map(|[cold, hot]| 0.5 * (cold + hot));
             let more = released_at(flow.surface()) - released;
@@ -164,6 +153,28 @@ impl Model {
             released += way * more;
             means.iter_mut().zip(found).for_each(|(mean, found)| *mean += way * (found - *mean));
         }
+    }
+
+    /// The layers of a deposit at mean temperatures [K], with what processes release at the surface [W/m²].
+    fn layers_at_means(
+        &self,
+        (of, deposit): (&Wall, &Deposit),
+        voidage: f64,
+        cooling: &WallCooling,
+        means: [f64; 4],
+        released: f64,
+    ) -> Result<ThermalLayers, WallHeatError> {
+        let slag_melts_at = self.slag_melts_at(of);
+        let near = slag_melts_at.unwrap_or(0.5 * (cooling.hot.gas_temperature + cooling.coolant.temperature));
+        Ok(ThermalLayers {
+            coolant: cooling.coolant,
+            wall_resistance: cooling.wall_resistance,
+            hot: HotSide { particle_flux: cooling.hot.particle_flux + released, ..cooling.hot },
+            resistance_per_mass: self.resistances_per_mass(of, deposit, voidage, cooling, means)?,
+            slag_melts_at,
+            powder_melts_at: self.powder_melts_at(deposit.conversion),
+            heat_of_fusion: self.melt_material(of).heat_of_fusion_near(near).unwrap_or(0.0),
+        })
     }
 
     /// Thermal resistance over mass of each layer [m² K/W per kg/m²], at mean temperatures [K].

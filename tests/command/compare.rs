@@ -307,3 +307,56 @@ fn faults_name_the_file_and_the_remedy() {
     done(at, &["compare", "lab.csv", "--models", "right.toml", "twin.toml"]);
     assert_eq!(std::fs::read_dir(at).unwrap().count(), before);
 }
+
+/// Particles that meet a plate at right angles in a gas without drag.
+const RIG: &str = "model = \"case.model.toml\"\n[run]\nseed = 1\ntime_limit = 1\ngravity = [0, 0, 0]\nhit_limit = 1\n\
+    [gas]\nfield = \"uniform\"\nvelocity = [0, 0, 0]\ntemperature = 293\ndensity = 1e-9\nviscosity = 1e-15\n\
+    conductivity = 1e-9\nheat_capacity = 1000\n\
+    [particles]\ncount = 20\nposition = { shape = \"point\", at = [0, 0, 0.01] }\ndirection = [0, 0, -1]\n\
+    diameter = { value = 50e-6, error = 1e-9 }\nspeed = { value = 1, error = 1e-6 }\n\
+    temperature = { value = 293, error = 1e-3 }\n\
+    [[walls]]\nname = \"plate\"\nwall = \"default\"\nshape = \"plane\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n\
+    radius = 0.1\ntemperature = { value = 293, error = 1e-3 }\n\
+    [[exits]]\nname = \"top\"\nshape = \"plane\"\npoint = [0, 0, 0.02]\nnormal = [0, 0, -1]\n";
+
+/// A rig that reads the mean `e_n` of particles at eleven speeds: the planted law is first, its twin is not told apart.
+#[test]
+fn models_are_ranked_on_the_readings_of_a_rig() {
+    let folder = laws("");
+    let mut rig = "experiment,particles.speed,mean_e_n@plate,mean_e_n@plate_err\n".to_owned();
+    for run in 0..11 {
+        let v = 0.5 * 20f64.powf(f64::from(run) / 10.0);
+        let noise = normal(9, run as u64)();
+        writeln!(rig, "run {run},{v},{:.5},0.01", thornton(v) + 0.01 * noise).unwrap();
+    }
+    // The case's own model is not among those compared.
+    let own = model("model = \"constant\"\ne_n = 0.2");
+    for (name, text) in [("rig.csv", &*rig), ("case.toml", RIG), ("case.model.toml", &own)] {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let models = ["constant.toml", "harder.toml", "right.toml", "twin.toml"];
+    let call =
+        [&["compare", "rig.csv", "--case", "case.toml", "--out", "out", "--models"], &models[..]].concat();
+    let printed = done(folder.path(), &call);
+    let json = json(folder.path());
+    assert_eq!(
+        (json["rows"]["groups"].as_u64(), json["rows"]["group_by"].as_str()),
+        (Some(11), Some("experiment"))
+    );
+    let ranked = json["models"].as_array().unwrap();
+    for (place, model) in ranked.iter().enumerate() {
+        let name = model["model"].as_str().unwrap();
+        assert_eq!(place < 2, ["right.toml", "twin.toml"].contains(&name), "{json:#}");
+        assert_eq!(model["log_likelihood"]["behind_best"]["told_apart"], place > 1, "{json:#}");
+        assert!(model["rmse_e_t"].is_null() && model["log_loss_stick"].is_null(), "{json:#}");
+    }
+    // What is left of the right law is the noise, 0.01.
+    let rmse = ranked[0]["rmse_e_n"]["value"].as_f64().unwrap();
+    assert!((0.005..0.02).contains(&rmse), "{rmse}");
+    assert!(printed.contains("11 of 11 readings rank them, of 11 experiments."), "{printed}");
+    assert!(folder.path().join("out/compare.html").exists());
+
+    std::fs::write(folder.path().join("broken.toml"), "[particle]\nmaterial = \"own\"\n").unwrap();
+    let call = ["compare", "rig.csv", "--case", "case.toml", "--models", "right.toml", "broken.toml"];
+    refused(folder.path(), &call, &["broken.toml", "normal"]);
+}

@@ -264,7 +264,8 @@ fn lowest_captured(rows: usize, captures: usize, rng: &mut SetRng) -> String {
     text
 }
 
-/// Seven captures of 174 show a threshold over Weber's number, and the model file has it.
+/// Seven captures of 174 show a threshold over Weber's number, and the model file has it. At one viscosity `K` orders
+/// speed and size nearly as Weber's number does, so that about half of the sets cannot tell them and must say so.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -284,11 +285,11 @@ fn diagnose_finds_thresholds_of_few_captures() {
             forms.iter().any(|form| form["observable"] == "outcome" && form["form"] == "logistic");
         [named && has_threshold, is_open]
     };
-    let all: Vec<[bool; 2]> = (0..8).into_par_iter().map(one).collect();
+    let all: Vec<[bool; 2]> = (0..16).into_par_iter().map(one).collect();
     let found = all.iter().filter(|one| one[0]).count();
     let open = all.iter().filter(|one| one[1]).count();
-    println!("right cause: {found} of 8 thresholds of seven captures, {open} left open");
-    assert!(found >= 4 && found + open >= 6, "NEARWALL_TEST_SEED={seed}");
+    println!("right cause: {found} of 16 thresholds of seven captures, {open} left open");
+    assert!(found >= 2 && found + open >= 13, "NEARWALL_TEST_SEED={seed}");
 }
 
 /// What products of columns plant: the name of the product, and `e_n` over size, gap [m], speed [m/s] and time [s].

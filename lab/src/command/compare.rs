@@ -1,29 +1,35 @@
-//! `nearwall compare`: models ranked on one file of measured impacts.
+//! `nearwall compare`: models ranked on one file of measured impacts, or on the readings of a rig.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::atomic_file::write_texts;
-use crate::dataset::{ColumnMap, WallChoice};
-use crate::diagnose::comparison::{ComparedModel, Comparison, compare};
+use crate::dataset::{ColumnMap, RigMeasurements, WallChoice};
+use crate::diagnose::comparison::{ComparedModel, Comparison, compare, compare_rig};
 use crate::report::{comparison_page, comparison_text};
+use crate::rig::CaseText;
 use nearwall::Model;
 use nearwall::input::Document;
 
 use super::{CommandResult, progress};
 
-/// Ranks models on measured impacts by held-out error with intervals
+/// Ranks models on measured impacts, or on the readings of a rig, with intervals
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall compare impacts.csv --models wax.toml softer.toml\n  \
-    nearwall compare lab.csv --columns lab.map.toml --models wax.toml softer.toml --out compared\n\n\
+    nearwall compare lab.csv --columns lab.map.toml --models wax.toml softer.toml --out compared\n  \
+    nearwall compare rig.csv --case case.toml --models wax.toml softer.toml\n\n\
     Prints the ranking, and with --out writes compare.json and compare.html into the folder. The data file is that of\n\
-    `nearwall diagnose` (docs/data-file.md); rows of one `series` are drawn together. docs/compare.md describes the method.")]
+    `nearwall diagnose` (docs/data-file.md); rows of one `series` are drawn together. With --case the rows are experiments\n\
+    of a rig (docs/rig-diagnosis.md), which the case simulates with each model. docs/compare.md describes the method.")]
 pub struct Arguments {
     /// The measured impacts
     data: PathBuf,
     /// The model files, two or more
     #[arg(long, required = true, num_args = 2.., value_name = "M.toml")]
     models: Vec<PathBuf>,
+    /// A case of `nearwall simulate`: the rows are experiments on a rig; the models take the place of the case's own
+    #[arg(long, value_name = "CASE.toml", conflicts_with_all = ["columns", "wall"])]
+    case: Option<PathBuf>,
     /// Column map that renames and converts the columns of a laboratory's own file
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
@@ -39,9 +45,41 @@ pub struct Arguments {
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
-    let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let files: Vec<Document> =
         arguments.models.iter().map(|path| Document::from_file(path)).collect::<Result<_, _>>()?;
+    let (comparison, notes) = match &arguments.case {
+        Some(case) => on_rig(arguments, case, &files)?,
+        None => on_impacts(arguments, &files)?,
+    };
+    let text = comparison_text(&comparison);
+    let Some(folder) = &arguments.out else { return super::print(&text) };
+    write(arguments, folder, &comparison, &notes)?;
+    super::print_page(&(text + "\n"), &folder.join("compare.html"))
+}
+
+/// A comparison with the notes on its data file.
+type Compared = Result<(Comparison, Vec<String>), Box<dyn std::error::Error>>;
+
+/// Compares on the readings of a rig that a case of `nearwall simulate` describes.
+fn on_rig(arguments: &Arguments, case: &Path, models: &[Document]) -> Compared {
+    let file = arguments.data.display().to_string();
+    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
+    let data = RigMeasurements::read(&file, source)?;
+    super::note(&data.notes);
+    let case = CaseText::from_file(case)?;
+    let bar = progress::spinner("models simulated");
+    let told = |model: &str| {
+        bar.inc(1);
+        bar.set_message(format!("models simulated: {model}"));
+    };
+    let comparison = compare_rig(&case, &data, models, arguments.seed, &told);
+    bar.finish_and_clear();
+    Ok((comparison.map_err(|error| format!("{file}: {error}"))?, data.notes))
+}
+
+/// Compares on measured impacts.
+fn on_impacts(arguments: &Arguments, files: &[Document]) -> Compared {
+    let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
     let model = |file: &Document| Model::from_toml(file.name(), file.text());
     let models: Vec<Model> = files.iter().map(model).collect::<Result<_, _>>()?;
     let candidate = |(file, model): (&Document, _)| {
@@ -54,10 +92,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     super::note(&notes);
     let file = arguments.data.display().to_string();
     let comparison = compare(&candidates, arguments.seed).map_err(|error| format!("{file}: {error}"))?;
-    let text = comparison_text(&comparison);
-    let Some(folder) = &arguments.out else { return super::print(&text) };
-    write(arguments, folder, &comparison, &notes)?;
-    super::print_page(&(text + "\n"), &folder.join("compare.html"))
+    Ok((comparison, notes))
 }
 
 /// The data as the walls of a model read them.
@@ -84,8 +119,13 @@ fn read<'a>(
 fn write(arguments: &Arguments, folder: &Path, comparison: &Comparison, notes: &[String]) -> CommandResult {
     let page = comparison_page(comparison, &arguments.data.display().to_string(), notes)?;
     let json = serde_json::to_string_pretty(comparison)? + "\n";
-    let mut inputs: Vec<&Path> =
-        arguments.models.iter().chain(&arguments.columns).map(PathBuf::as_path).collect();
+    let mut inputs: Vec<&Path> = arguments
+        .models
+        .iter()
+        .chain(&arguments.columns)
+        .chain(&arguments.case)
+        .map(PathBuf::as_path)
+        .collect();
     inputs.push(&arguments.data);
     Ok(write_texts(folder, &inputs, [("compare.json", json), ("compare.html", page)])?)
 }

@@ -77,11 +77,7 @@ impl<'a> Builder<'a> {
         }
         let records_captures = CAPTURES.iter().any(|name| named.index(name).is_some());
         walls.check(named.index("wall").is_some())?;
-        // A column of groups tells rows apart also where the model has an input of its name.
-        let tells_groups = |index: &usize| {
-            let is_group = headers.get(*index).is_some_and(|header| map.reads_labels(header));
-            is_group || named.name_of(*index) == Some("series")
-        };
+        let tells_groups = |index: &usize| tells_groups(*index, headers, map, &named);
         let mut causes = causes(headers, map, &named);
         causes.retain(|(index, _)| !inputs.is_extra(*index) || tells_groups(index));
         let errors = InputErrorColumns::new(&named);
@@ -386,6 +382,12 @@ impl Measurements {
         data.notes.splice(0..0, table.notes());
         Ok(data)
     }
+}
+
+/// Whether a column tells rows apart: groups do also where the model has an input of their name.
+fn tells_groups(index: usize, headers: &csv::StringRecord, map: &ColumnMap, named: &NamedColumns) -> bool {
+    let is_group = headers.get(index).is_some_and(|header| map.reads_labels(header));
+    is_group || named.name_of(index) == Some("series")
 }
 
 /// The possible causes: all columns without another meaning, and the labels `wall` and `series`.

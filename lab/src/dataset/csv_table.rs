@@ -67,11 +67,8 @@ impl<R: Read> CsvTable<R> {
         mapped: impl Fn(&str) -> bool,
     ) -> Result<Self, DatasetError> {
         let skipped = layout.header_line - 1;
-        let unreadable = |error: std::io::Error| DatasetError::Unreadable {
-            file: file.to_owned(),
-            reason: error.to_string(),
-        };
-        let text = Text::new(source).map_err(unreadable)?;
+        let text = Text::new(source)
+            .map_err(|error| DatasetError::Unreadable { file: file.to_owned(), reason: error.to_string() })?;
         let (head, windows_1252) = text.head();
         let notation = Notation::of(&head, &layout).map_err(|(line, problem)| DatasetError::Header {
             file: file.to_owned(),

@@ -8,9 +8,10 @@
 //! (Schwarz 1978) and for few is bounded, however well they are met. Where the noise is stated it is
 //! `G - ½ k ln(1+n)`.
 //!
-//! The search expands the best explanation that was not expanded yet, as long as it lies within
-//! Occam's window of the best one (Madigan and Raftery 1994): by every addition, and by leaving out
-//! each of those that it has.
+//! The search expands explanations within Occam's window (Madigan and Raftery 1994) of the best one
+//! that needs no more additions: by every addition, and by leaving out each of those that it has.
+//! One with more additions closes no window: where two explain a first observable alike, the second
+//! observable is asked of both, and not only of the one that led by chance.
 
 /// Ratio of evidence beyond which an explanation is not pursued, as a logarithm [nats]: 20 to 1.
 pub(super) const WINDOW: f64 = 3.0;
@@ -124,10 +125,16 @@ fn next<F: Clone>(
     if let Some(base) = visited.iter().find(|one| one.keys.is_empty() && expanded.is_empty()) {
         return Some(base.clone());
     }
-    let all: Vec<(f64, &Explanation<F>)> = visited.iter().map(|one| (evidence.of(one), one)).collect();
-    let best = all.iter().map(|(worth, _)| *worth).fold(f64::NEG_INFINITY, f64::max);
-    let open = all.iter().filter(|(worth, one)| *worth > best - WINDOW && !expanded.contains(&one.keys));
-    open.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, one)| (*one).clone())
+    let worth: Vec<f64> = visited.iter().map(|one| evidence.of(one)).collect();
+    let behind = |place: usize| {
+        let smaller =
+            visited.iter().zip(&worth).filter(|(one, _)| one.keys.len() <= visited[place].keys.len());
+        smaller.map(|(_, worth)| *worth).fold(f64::NEG_INFINITY, f64::max) - worth[place]
+    };
+    let all = visited.iter().enumerate().map(|(place, one)| (behind(place), worth[place], one));
+    let open = all.filter(|(behind, _, one)| *behind < WINDOW && !expanded.contains(&one.keys));
+    let first = open.min_by(|a, b| a.0.total_cmp(&b.0).then(b.1.total_cmp(&a.1)));
+    first.map(|(.., one)| one.clone())
 }
 
 /// Adds an explanation; of two with the same additions the better fit stays.
@@ -213,5 +220,46 @@ mod tests {
     fn what_gains_most_alone_is_left_out_later() {
         let found = explore(&Planted, vec![explained(Vec::new())], 8);
         assert_eq!(found[0].keys, ["a", "b"]);
+    }
+
+    /// Two groups, `k` and `w`, that explain restitution alike; captures are explained best by `w`.
+    struct Twins;
+
+    impl Explained for Twins {
+        type Fitted = ();
+
+        fn evidence(&self) -> Evidence {
+            evidence(100.0, true)
+        }
+
+        fn effort(&self, _: &Explanation<()>) -> usize {
+            1
+        }
+
+        fn extended(&self, of: &Explanation<()>) -> Vec<Explanation<()>> {
+            let with = |key: &str| Explanation {
+                keys: [of.keys.clone(), vec![key.to_owned()]].concat(),
+                ..of.clone()
+            };
+            let scored =
+                |(key, score): (&str, f64)| Explanation { scores: vec![score], freedom: 1.0, ..with(key) };
+            let next: &[(&str, f64)] = match of.keys.first().map(String::as_str) {
+                None => &[("k", 50.0), ("w", 49.0)],
+                Some("k") if of.keys.len() == 1 => &[("k2", 80.0)],
+                Some("w") if of.keys.len() == 1 => &[("w2", 90.0)],
+                _ => &[],
+            };
+            next.iter().copied().map(scored).collect()
+        }
+
+        fn reduced(&self, _: &Explanation<()>, _: &dyn Fn(&[String]) -> bool) -> Vec<Explanation<()>> {
+            Vec::new()
+        }
+    }
+
+    #[test]
+    fn what_follows_is_asked_of_both_twins() {
+        let found = explore(&Twins, vec![explained(Vec::new())], 4);
+        assert_eq!(found[0].keys, ["w", "w2"]);
     }
 }

@@ -76,6 +76,13 @@ impl HeldOutRows {
         }
     }
 
+    /// Number of readings of an observable; of captures every impact of a class is one.
+    fn count(&self, observable: Observable) -> f64 {
+        let measured = self.squares[observable as usize].iter().zip(&self.impacts);
+        let counted = measured.filter(|(squares, _)| squares.is_some());
+        counted.map(|(_, impacts)| if observable == Observable::Capture { *impacts } else { 1.0 }).sum()
+    }
+
     /// The gain in one observable; `None` where too few rows have it. `noise` is the scatter that no model removes.
     pub fn gain(
         &self,
@@ -91,14 +98,7 @@ impl HeldOutRows {
         if rows.len() < LEAST_ROWS {
             return None;
         }
-        let counted = self.squares[observable as usize]
-            .iter()
-            .zip(&self.impacts)
-            .filter(|(squares, _)| squares.is_some());
-        let count = match observable {
-            Observable::Capture => counted.map(|(_, impacts)| *impacts).sum(),
-            _ => rows.len() as f64,
-        };
+        let count = self.count(observable);
         let rmse =
             |which: usize| (rows.iter().map(|(_, squares)| squares[which]).sum::<f64>() / count).sqrt();
         let score = |which: usize| average(self.scores.iter().map(|pair| pair[which])).unwrap_or(f64::NAN);

@@ -205,26 +205,30 @@ fn examined(
     let views = data_view::views(models, &diagnosis.findings);
     diagnosis.sample = Sample { views, notes: data.notes.clone(), ..gain::sample(&plain, &hypothesis) };
     let extended = extend::extended(task.text, &hypothesis).map_err(unextendable)?;
-    if !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty()) {
+    if !diagnosis.findings.is_empty() || !diagnosis.calibration.is_empty() {
         let measured = study.held_out(data, whole, task, models, &extended).map_err(unextendable)?;
         let noise = |observable| gain::noise_floor(data, hypothesis.scatter, observable);
         let of = |observable| measured.gain(observable, noise(observable), options.seed);
-        diagnosis.gains = Observable::ALL.into_iter().filter_map(of).collect();
-        let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
-        diagnosis.gain = diagnosis.gains.iter().find(|gain| gain.observable == first).cloned();
-        diagnosis.rows.held_out = diagnosis.gains.iter().map(|gain| gain.held_out_rows).max().unwrap_or(0);
+        set_gains(&mut diagnosis, Observable::ALL.into_iter().filter_map(of).collect());
     }
     diagnosis.verdict = sentences::sentences(&diagnosis);
     if hypothesis.curves.iter().any(|curve| !extend::contains(&extended, curve, &fine)) {
         diagnosis.verdict +=
             " extended.toml lacks the curve over a column whose name cannot be that of an input: rename it.";
     }
-    let extended = match extended.trim_end() == task.text.trim_end() {
-        true => extended,
-        false => FittedRows::add_to(&extended, data, &fine.fit).map_err(unextendable)?,
-    };
+    let is_changed = extended.trim_end() != task.text.trim_end();
+    let fitted = is_changed.then(|| FittedRows::add_to(&extended, data, &fine.fit));
+    let extended = fitted.transpose().map_err(unextendable)?.unwrap_or(extended);
     let draws = draws::draws(task.text, &hypothesis, draws, options.seed).map_err(unextendable)?;
     Ok((diagnosis, extended, draws))
+}
+
+/// The gains in each observable, and that of the first finding.
+fn set_gains(diagnosis: &mut Diagnosis, gains: Vec<Gain>) {
+    let first = diagnosis.findings.first().map_or("", |finding| finding.observable);
+    diagnosis.gain = gains.iter().find(|gain| gain.observable == first).cloned();
+    diagnosis.rows.held_out = gains.iter().map(|gain| gain.held_out_rows).max().unwrap_or(0);
+    diagnosis.gains = gains;
 }
 
 fn unextendable(error: impl std::fmt::Display) -> DiagnosisError {

@@ -51,20 +51,10 @@ pub(super) fn misfit(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, level: f
 pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options: &Options) -> Diagnosis {
     let data = hypothesis.data;
     let builder = FindingBuilder { hypothesis, choice, reach: &options.reach };
-    let mut findings: Vec<Finding> = Vec::new();
-    let mut calibration = Vec::new();
-    for discovery in &choice.discoveries {
-        if discovery.addition.is_calibration() {
-            calibration.extend(builder.calibration(discovery));
-            continue;
-        }
-        let finding = builder.finding(discovery);
-        // A column that acts on two observables is one cause.
-        match findings.iter_mut().find(|earlier| earlier.cause == finding.cause) {
-            Some(earlier) => earlier.join(finding),
-            None => findings.push(finding),
-        }
-    }
+    let (numbers, causes): (Vec<_>, Vec<_>) =
+        choice.discoveries.iter().partition(|one| one.addition.is_calibration());
+    let calibration = numbers.into_iter().flat_map(|one| builder.calibration(one)).collect();
+    let findings = joined(causes.into_iter().map(|one| builder.finding(one)));
     let undecided = if choice.discoveries.is_empty() { choice.explanations.undecided() } else { Vec::new() };
     let scatter = |observable: Observable| {
         let observed = data.rows.iter().any(|row| observable.measured(row).is_some());
@@ -95,6 +85,18 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         extended_model: "extended.toml",
         ..Diagnosis::default()
     }
+}
+
+/// The findings, of which a column that acts on two observables is one.
+fn joined(all: impl Iterator<Item = Finding>) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = Vec::new();
+    for finding in all {
+        match findings.iter_mut().find(|earlier| earlier.cause == finding.cause) {
+            Some(earlier) => earlier.join(finding),
+            None => findings.push(finding),
+        }
+    }
+    findings
 }
 
 /// Why effects were no candidates: `range` gives the least and largest value of an input that

@@ -125,10 +125,21 @@ impl CaseText {
             }
             _ => Document::new(case.name(), ""),
         };
+        let text = Self { name: case.name().to_owned(), folder, document, original, errors, model };
+        let model = text.model.clone();
+        text.with_model(model)
+    }
+
+    /// The case with another model file.
+    ///
+    /// # Errors
+    /// [`SettingError::Text`].
+    pub fn with_model(mut self, model: Document) -> Result<Self, SettingError> {
         let mut table = parse(&model)?.as_table().clone();
         table.set_implicit(true);
-        document.insert("model", Item::Table(table));
-        Ok(Self { name: case.name().to_owned(), folder, document, original, errors, model })
+        self.document.insert("model", Item::Table(table));
+        self.model = model;
+        Ok(self)
     }
 
     /// The case with the settings of an experiment, which messages call `experiment`.

@@ -163,11 +163,36 @@ impl RecordedFlight {
         if start <= 0.0 {
             return None;
         }
-        // Beyond the wall it flies to, or back at its own.
-        let there = |time: f64| {
-            let at = self.distance(start, acceleration, time);
-            if self.way > 0.0 { at - self.way } else { -at }
-        };
+        let (mut low, mut high) = self.bracket(start, acceleration)?;
+        // Newton's method within the bracket.
+        let mut time = 0.5 * (low + high);
+        for _ in 0..60 {
+            let off = self.beyond(start, acceleration, time);
+            if off < 0.0 {
+                low = time
+            } else {
+                high = time
+            }
+            let slope = start + acceleration * build_up(self.rate, time);
+            let next = time - off / if self.way > 0.0 { slope } else { -slope };
+            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
+            if (next - time).abs() <= 1e-9 * time {
+                return Some(next);
+            }
+            time = next;
+        }
+        Some(time)
+    }
+
+    /// How far it is beyond the wall that it flies to, or behind its own, after this time.
+    fn beyond(&self, start: f64, acceleration: f64, time: f64) -> f64 {
+        let at = self.distance(start, acceleration, time);
+        if self.way > 0.0 { at - self.way } else { -at }
+    }
+
+    /// Times before and after the arrival; `None` where it turns before the wall or takes too long.
+    fn bracket(&self, start: f64, acceleration: f64) -> Option<(f64, f64)> {
+        let there = |time: f64| self.beyond(start, acceleration, time);
         // Where it turns, if it does.
         let built_up = if acceleration < 0.0 { -start / acceleration } else { f64::INFINITY };
         let turns = match built_up * self.rate {
@@ -193,24 +218,7 @@ impl RecordedFlight {
                 return None;
             }
         }
-        // Newton's method within the bracket.
-        let mut time = 0.5 * (low + high);
-        for _ in 0..60 {
-            let off = there(time);
-            if off < 0.0 {
-                low = time
-            } else {
-                high = time
-            }
-            let slope = start + acceleration * build_up(self.rate, time);
-            let next = time - off / if self.way > 0.0 { slope } else { -slope };
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-            if (next - time).abs() <= 1e-9 * time {
-                return Some(next);
-            }
-            time = next;
-        }
-        Some(time)
+        Some((low, high))
     }
 }
 

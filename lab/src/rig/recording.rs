@@ -253,7 +253,12 @@ impl Recording {
     /// # Errors
     /// [`ReplayError::OtherModel`].
     pub fn check(&self, history: &ImpactHistory, base: &Model) -> Result<(), ReplayError> {
-        let other = |reason: String| Err(ReplayError::OtherModel { file: self.file.clone(), reason });
+        let difference = self.capture_difference().or_else(|| self.restitution_difference(history, base));
+        difference.map_or(Ok(()), |reason| Err(ReplayError::OtherModel { file: self.file.clone(), reason }))
+    }
+
+    /// Where the run captured what the base model cannot have captured, or too much or little in all.
+    fn capture_difference(&self) -> Option<String> {
         let count = self.impacts.len() as f64;
         let allowed = CONTRADICTIONS * count;
         let impossible =
@@ -262,22 +267,26 @@ impl Recording {
         let first = contradicting.next().map(|one| (one.line, one.captured));
         if let Some((line, captured)) = first.filter(|_| 1.0 + contradicting.count() as f64 > allowed) {
             let did = if captured { ["captured", "never captures"] } else { ["let go", "always captures"] };
-            return other(format!(
-                "on line {line} the run {} a parcel that the model file {}",
-                did[0], did[1]
-            ));
+            let [run, file] = did;
+            return Some(format!("on line {line} the run {run} a parcel that the model file {file}"));
         }
         let expected: f64 = self.impacts.iter().map(|one| one.base).sum();
         let error = self.impacts.iter().map(|one| one.base * (1.0 - one.base)).sum::<f64>().sqrt();
         let captured = self.impacts.iter().filter(|one| one.captured).count() as f64;
-        if (captured - expected).abs() > ERRORS * error + allowed + 0.5 {
-            return other(format!(
+        let differs = (captured - expected).abs() > ERRORS * error + allowed + 0.5;
+        differs.then(|| {
+            format!(
                 "the run captured {captured} of {count} impacts, the model file {expected:.1} +- {error:.1}"
-            ));
-        }
+            )
+        })
+    }
+
+    /// Where the run's restitution is not that of the base model; laws with random draws are not compared.
+    fn restitution_difference(&self, history: &ImpactHistory, base: &Model) -> Option<String> {
         if base.terms().iter().any(|term| term.kind().stream.is_some()) {
-            return Ok(());
+            return None;
         }
+        let allowed = CONTRADICTIONS * self.impacts.len() as f64;
         let mut differing = 0.0;
         let recorded = history.parcels.iter().flat_map(|parcel| &parcel.impacts);
         for (one, recorded) in self.impacts.iter().zip(recorded) {
@@ -292,13 +301,13 @@ impl Recording {
             }
             differing += 1.0;
             if differing > allowed {
-                return other(format!(
+                return Some(format!(
                     "on line {} the run has e_n = {e_n:.6} and e_t = {e_t:.6}, the model file {:.6} and {:.6}",
                     one.line, own[0], own[1]
                 ));
             }
         }
-        Ok(())
+        None
     }
 
     /// Leaves out whole parcels evenly where there are more impacts than are replayed.
@@ -364,11 +373,10 @@ impl Recording {
         account: &mut ReplayAccount,
         hit: &mut impl FnMut(&TalliedHit<'_>, f64),
     ) -> Result<(), PredictionError> {
-        let (mut share, mut doubt) = (1.0, 0.0_f64);
-        let mut landing: Option<Landing> = None;
+        let mut way = Way { share: 1.0, doubt: 0.0, landing: None };
         for (index, one) in self.impacts[parcel.impacts.clone()].iter().enumerate() {
-            let Some((impact, position)) = self.arrival(one, landing) else {
-                account.led_away += share * one.mass;
+            let Some((impact, position)) = self.arrival(one, way.landing) else {
+                account.led_away += way.share * one.mass;
                 break;
             };
             let outcome = model.resolve(one.wall, &impact, one.random).map_err(|error| {
@@ -380,14 +388,14 @@ impl Recording {
                 coordinate: position[self.axes[one.patch]],
                 impact: &impact,
                 outcome: &outcome,
-                share,
+                share: way.share,
                 caught,
                 weight: parcel.particles,
                 mass: one.mass,
             };
-            hit(&tallied, doubt);
-            account.catch(share * caught * one.mass, index > 0, doubt);
-            let left = share * (1.0 - caught);
+            hit(&tallied, way.doubt);
+            account.catch(way.share * caught * one.mass, index > 0, way.doubt);
+            let left = way.share * (1.0 - caught);
             if one.base >= CERTAIN {
                 account.without_record += left * one.mass;
                 break;
@@ -395,25 +403,42 @@ impl Recording {
             if one.captured || left <= 0.0 {
                 break;
             }
-            share = left / (1.0 - one.base);
-            account.without_record += (share - MOST_SHARE).max(0.0) * one.mass;
-            share = share.min(MOST_SHARE);
-            match one.next(rebound_speeds(&impact, &outcome)) {
-                NextImpact::AsRecorded(change) => {
-                    // A flight that is not known again leads to the recorded impact.
-                    (doubt, landing) = (doubt.max(change), None);
-                }
-                NextImpact::Shifted(next, change) => {
-                    let shift = landing.map_or(next.shift, |landing| landing.shift + next.shift);
-                    (doubt, landing) = (doubt.max(change), Some(Landing { shift, ..next }));
-                }
-                NextImpact::Away => {
-                    account.led_away += share * one.mass;
-                    break;
-                }
+            way.share = left / (1.0 - one.base);
+            account.without_record += (way.share - MOST_SHARE).max(0.0) * one.mass;
+            way.share = way.share.min(MOST_SHARE);
+            if !way.leads_on(one.next(rebound_speeds(&impact, &outcome))) {
+                account.led_away += way.share * one.mass;
+                break;
             }
         }
         Ok(())
+    }
+}
+
+/// A parcel on its way from impact to impact.
+struct Way {
+    /// Weight of the record: how much more of the parcel goes on than in the run [1].
+    share: f64,
+    /// Share of what lands that a changed flight makes doubtful [1].
+    doubt: f64,
+    /// Where a changed flight leads.
+    landing: Option<Landing>,
+}
+
+impl Way {
+    /// Goes on after a rebound; whether there is a next impact.
+    fn leads_on(&mut self, next: NextImpact) -> bool {
+        let (change, landing) = match next {
+            // A flight that is not known again leads to the recorded impact.
+            NextImpact::AsRecorded(change) => (change, None),
+            NextImpact::Shifted(next, change) => {
+                let shift = self.landing.map_or(next.shift, |landing| landing.shift + next.shift);
+                (change, Some(Landing { shift, ..next }))
+            }
+            NextImpact::Away => return false,
+        };
+        (self.doubt, self.landing) = (self.doubt.max(change), landing);
+        true
     }
 }
 

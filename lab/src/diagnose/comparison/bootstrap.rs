@@ -4,7 +4,7 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
 use super::super::constants::BOOTSTRAP_RESAMPLES;
-use super::measure::{ComparisonMeasure, Totals};
+use super::measure::{ComparisonMeasure, MEASURES, Totals};
 
 /// Least number of groups for an interval.
 const LEAST_BOOTSTRAP_GROUPS: usize = 3;
@@ -12,9 +12,9 @@ const LEAST_BOOTSTRAP_GROUPS: usize = 3;
 /// The measures of all models on all rows and on every resample.
 pub(super) struct Bootstrap {
     /// By model and measure; not a number where nothing was measured.
-    pub values: Vec<[f64; 4]>,
+    pub values: Vec<[f64; MEASURES]>,
     /// By resample, model and measure; empty where there are too few groups.
-    resampled: Vec<Vec<[f64; 4]>>,
+    resampled: Vec<Vec<[f64; MEASURES]>>,
 }
 
 impl Bootstrap {
@@ -50,9 +50,9 @@ impl Bootstrap {
 }
 
 /// The measures of every model over some groups.
-fn measures(totals: &[Totals], groups: impl Iterator<Item = usize> + Clone) -> Vec<[f64; 4]> {
+fn measures(totals: &[Totals], groups: impl Iterator<Item = usize> + Clone) -> Vec<[f64; MEASURES]> {
     let of_model = |totals: &Totals| {
-        let mut sums = [[0.0; 2]; 4];
+        let mut sums = [[0.0; 2]; MEASURES];
         for group in groups.clone() {
             let own = totals.of_group[group].as_flattened();
             sums.as_flattened_mut().iter_mut().zip(own).for_each(|(sum, own)| *sum += own);

@@ -3,6 +3,9 @@
 use super::groups::RowGroups;
 use super::score::ScoredRows;
 
+/// Number of measures.
+pub(super) const MEASURES: usize = 5;
+
 /// A measure of the agreement of a model with the data.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum ComparisonMeasure {
@@ -14,17 +17,24 @@ pub(super) enum ComparisonMeasure {
     TangentialRestitution,
     /// Mean log loss of the capture of an impact [nats].
     Capture,
+    /// Root mean square error of the other readings of a rig: shares [1].
+    Share,
 }
 
 impl ComparisonMeasure {
-    pub const ALL: [Self; 4] =
-        [Self::LogLikelihood, Self::NormalRestitution, Self::TangentialRestitution, Self::Capture];
+    pub const ALL: [Self; MEASURES] = [
+        Self::LogLikelihood,
+        Self::NormalRestitution,
+        Self::TangentialRestitution,
+        Self::Capture,
+        Self::Share,
+    ];
 
     /// The measure of a sum over its weight.
     pub fn value(self, [sum, weight]: [f64; 2]) -> f64 {
         let mean = sum / weight;
         match self {
-            Self::NormalRestitution | Self::TangentialRestitution => mean.max(0.0).sqrt(),
+            Self::NormalRestitution | Self::TangentialRestitution | Self::Share => mean.sqrt(),
             Self::LogLikelihood | Self::Capture => mean,
         }
     }
@@ -38,12 +48,12 @@ impl ComparisonMeasure {
 /// The sums of a model over each group.
 pub(super) struct Totals {
     /// Sum and weight of each measure, by group.
-    pub of_group: Vec<[[f64; 2]; 4]>,
+    pub of_group: Vec<[[f64; 2]; MEASURES]>,
 }
 
 impl Totals {
     pub fn new(rows: &ScoredRows, groups: &RowGroups) -> Self {
-        let mut of_group = vec![[[0.0; 2]; 4]; groups.count];
+        let mut of_group = vec![[[0.0; 2]; MEASURES]; groups.count];
         for (row, group) in groups.of_row.iter().enumerate() {
             let terms = ComparisonMeasure::ALL.map(|measure| term(measure, rows, row));
             for (sum, term) in of_group[*group].as_flattened_mut().iter_mut().zip(terms.as_flattened()) {
@@ -66,6 +76,7 @@ fn term(measure: ComparisonMeasure, rows: &ScoredRows, row: usize) -> [f64; 2] {
             let loss = -(share * p.ln() + (1.0 - share) * (1.0 - p).ln());
             [rows.impacts[row] * loss, rows.impacts[row]]
         }),
+        ComparisonMeasure::Share => None,
     };
     term.unwrap_or_default()
 }

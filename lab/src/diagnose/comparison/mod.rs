@@ -3,13 +3,14 @@
 //! No parameter of a model is fitted here. Only the scatter of `e_n` and `e_t` about each model is
 //! estimated, always on other rows than those that it scores. Rows that fitted a model before are
 //! counted, if its file states them. Intervals are
-//! those of a bootstrap over groups with the same resamples for all models. Method for users:
-//! `docs/compare.md`.
+//! those of a bootstrap over groups with the same resamples for all models. On the readings of a rig
+//! ([`compare_rig`]) the groups are experiments. Method for users: `docs/compare.md`.
 
 mod bootstrap;
 mod groups;
 mod measure;
 mod record;
+mod rig;
 mod score;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -24,6 +25,8 @@ use groups::RowGroups;
 use measure::Totals;
 use nearwall::model::Model;
 use score::ScoredRows;
+
+pub use rig::{RigComparisonError, compare_rig};
 
 pub use record::{Comparison, Difference, GroupedRows, Interval, ModelErrors, ModelResult, ModelRows};
 

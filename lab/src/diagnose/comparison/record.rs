@@ -35,7 +35,7 @@ pub struct GroupedRows {
     pub used: usize,
     /// Groups that the bootstrap draws.
     pub groups: usize,
-    /// `series`, or `row`.
+    /// `series`, `row`, or `experiment` at a rig.
     pub group_by: &'static str,
 }
 
@@ -72,6 +72,9 @@ pub struct ModelErrors {
     pub rmse_e_t: Option<Interval>,
     /// Mean log loss of the capture of an impact [nats].
     pub log_loss_stick: Option<Interval>,
+    /// Root mean square error of the shares that a rig reads [1].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rmse_share: Option<Interval>,
 }
 
 /// One model.
@@ -84,14 +87,14 @@ pub struct ModelResult {
     /// Its measures.
     #[serde(flatten)]
     pub errors: ModelErrors,
-    /// Scatter of single values of `e_n` and `e_t` about it [1].
+    /// Scatter of single values of `e_n` and `e_t` about it [1]; 0 at a rig.
     pub scatter: [f64; 2],
     /// The rows that it cannot use.
     pub rows: ModelRows,
 }
 
 /// The rows that a model cannot use, or only outside its range, and those that fitted it.
-#[derive(Debug, Clone, Serialize)]
+#[derive(Debug, Clone, Default, Serialize)]
 pub struct ModelRows {
     /// Rows that it cannot decide, or that cannot be read.
     pub undecided: usize,
@@ -145,6 +148,7 @@ fn errors(bootstrap: &Bootstrap, model: usize) -> ModelErrors {
         rmse_e_n: of(ComparisonMeasure::NormalRestitution),
         rmse_e_t: of(ComparisonMeasure::TangentialRestitution),
         log_loss_stick: of(ComparisonMeasure::Capture),
+        rmse_share: of(ComparisonMeasure::Share),
     }
 }
 

@@ -28,7 +28,9 @@ mod study;
 
 pub use blame::{Blame, BlamedNumber, Parties};
 pub use next::NextExperiment;
+pub(super) use noise::Data as Readings;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
+pub(super) use study::readings;
 
 use super::constants::THOROUGH_RIG;
 use super::first_reasons;
@@ -89,15 +91,7 @@ pub fn diagnose_rig(
     case: Option<&CaseText>,
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<RigDiagnosis, RigError> {
-    if data.count() < LEAST_READINGS {
-        let reasons = first_reasons(&data.rejected);
-        let usable = data.read - data.rejected.len();
-        return Err(RigError::TooFew { usable, read: data.read, reasons });
-    }
-    let is_no_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
-    if let Some(reach) = options.reach.iter().find(is_no_number) {
-        return Err(RigError::NoNumber(reach.name.clone()));
-    }
+    check(data, options, case)?;
     let study = RigStudy::new(forward, options.seed, progress)?;
     let all = vec![1.0; study.data.experiments];
     let valid = study.inputs.valid();
@@ -122,15 +116,26 @@ pub fn diagnose_rig(
     };
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
-    let moves: Vec<(&CaseNumber, f64)> = additions
-        .iter()
-        .filter_map(|one| one.case_number())
-        .map(|(_, number, widths)| (number, widths))
-        .collect();
+    let moves = additions.iter().filter_map(|one| one.case_number());
+    let moves: Vec<(&CaseNumber, f64)> = moves.map(|(_, number, widths)| (number, widths)).collect();
     let extended_case = case.filter(|_| !moves.is_empty()).map(|case| case.extended(&moves, "extended.toml"));
     let found =
         report::RigFindings { study: &study, choice, refuted, held_out, text, extended_case, draws, next };
     Ok(found.record(data, options)?)
+}
+
+/// Refuses too few readings, and a reach of something that is no number of the case.
+fn check(data: &RigMeasurements, options: &Options, case: Option<&CaseText>) -> Result<(), RigError> {
+    if data.count() < LEAST_READINGS {
+        let reasons = first_reasons(&data.rejected);
+        let usable = data.read - data.rejected.len();
+        return Err(RigError::TooFew { usable, read: data.read, reasons });
+    }
+    let is_no_number = |one: &&Reach| case.is_some_and(|case| case.number(&one.name).is_none());
+    match options.reach.iter().find(is_no_number) {
+        Some(reach) => Err(RigError::NoNumber(reach.name.clone())),
+        None => Ok(()),
+    }
 }
 
 /// Sets the parameters' intervals, and the bands of closed forms, to those of the draws.

@@ -18,7 +18,7 @@ use std::collections::BTreeSet;
 
 use serde::Serialize;
 
-use super::super::explanations::FoundExplanation;
+use super::super::explanations::{FoundExplanation, distinct};
 use super::super::reach::Reach;
 use super::addition::{RigAddition, moved, shapes};
 use super::choice::RigChoice;
@@ -139,17 +139,12 @@ pub(super) fn next_experiments(
     reach: &[Reach],
 ) -> Result<Vec<NextExperiment>, PredictionError> {
     let columns = columns(study, choice, data)?;
-    let experiments: Vec<Experiment> = proposals(data, text, reach)
-        .into_iter()
-        .enumerate()
-        .map(|(number, settings)| {
-            let readings = columns.iter().map(|(reading, _)| reading.clone()).collect();
-            Experiment { name: format!("proposal {}", number + 1), line: 0, settings, readings }
-        })
-        .collect();
+    let proposed = proposals(data, text, reach).into_iter().enumerate().map(|(number, settings)| {
+        let readings = columns.iter().map(|(reading, _)| reading.clone()).collect();
+        Experiment { name: format!("proposal {}", number + 1), line: 0, settings, readings }
+    });
     // A proposal that the case refuses, as a temperature without a gas property, is none.
-    let cases: Vec<RigCase> =
-        experiments.iter().filter_map(|one| RigCase::proposed(text, one).ok()).collect();
+    let cases: Vec<RigCase> = proposed.filter_map(|one| RigCase::proposed(text, &one).ok()).collect();
     let mut causes = causes(study, choice, posterior);
     let moved = causes.iter().flat_map(|cause| &cause.states).flatten();
     let moved: BTreeSet<usize> = moved.filter_map(|one| Some(one.case_number()?.0)).collect();
@@ -159,17 +154,14 @@ pub(super) fn next_experiments(
     if causes.is_empty() || cases.is_empty() {
         return Ok(Vec::new());
     }
-    let mut options = Vec::new();
-    for place in 0..cases.len() {
-        for (column, (_, usual)) in columns.iter().enumerate() {
-            let index = place * columns.len() + column;
-            let predicted: Vec<f64> = by_state.iter().map(|all| all[index]).collect();
-            if predicted.iter().all(|value| value.is_finite()) {
-                let left = predicted.clone();
-                options.push(Possible { place: [place, column], usual: *usual, predicted, left });
-            }
-        }
-    }
+    let possible = |index: usize| {
+        let predicted: Vec<f64> = by_state.iter().map(|all| all[index]).collect();
+        let [place, column] = [index / columns.len(), index % columns.len()];
+        let left = predicted.clone();
+        let is_known = predicted.iter().all(|value| value.is_finite());
+        is_known.then(|| Possible { place: [place, column], usual: columns[column].1, predicted, left })
+    };
+    let options: Vec<Possible> = (0..cases.len() * columns.len()).filter_map(possible).collect();
     let ensemble = Ensemble::new(&causes);
     let row = |one: &Possible| {
         let [place, column] = one.place;
@@ -520,23 +512,13 @@ fn median(mut values: Vec<f64>) -> Option<f64> {
 
 /// The proposals as a table that can be filled in: the columns of the data file.
 pub(super) fn table(rows: &[NextExperiment]) -> String {
-    let mut keys: Vec<&String> = Vec::new();
-    let mut observables: Vec<&String> = Vec::new();
-    for row in rows {
-        for (key, _) in &row.settings {
-            if !keys.contains(&key) {
-                keys.push(key);
-            }
-        }
-        if !observables.contains(&&row.observable) {
-            observables.push(&row.observable);
-        }
-    }
+    let keys = distinct(rows.iter().flat_map(|row| row.settings.iter().map(|(key, _)| key)));
+    let observables = distinct(rows.iter().map(|row| &row.observable));
     let mut header: Vec<String> = vec!["experiment".to_owned()];
-    header.extend(keys.iter().map(|key| (*key).clone()));
+    header.extend(keys.iter().cloned());
     for observable in &observables {
-        let stated = rows.iter().any(|row| row.observable == **observable && row.error.is_some());
-        header.extend([(*observable).clone(), format!("{observable}_{}", if stated { "err" } else { "n" })]);
+        let stated = rows.iter().any(|row| row.observable == *observable && row.error.is_some());
+        header.extend([observable.clone(), format!("{observable}_{}", if stated { "err" } else { "n" })]);
     }
     header.extend(["tells_causes_nats".to_owned(), "pins_numbers_nats".to_owned()]);
     let mut lines = vec![header];
@@ -546,7 +528,7 @@ pub(super) fn table(rows: &[NextExperiment]) -> String {
         cells.extend(keys.iter().map(|key| cell(key).cloned().unwrap_or_default()));
         for observable in &observables {
             let wanted = match (row.error, row.repeats) {
-                _ if **observable != row.observable => String::new(),
+                _ if *observable != row.observable => String::new(),
                 (Some(error), _) => format!("{error:.2e}"),
                 (None, repeats) => repeats.map_or(String::new(), |repeats| repeats.to_string()),
             };

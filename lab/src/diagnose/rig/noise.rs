@@ -28,7 +28,7 @@ const PRIOR_SCATTER: [f64; 2] = [0.1, 0.01];
 
 /// What is known of the error of a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Noise {
+pub(in crate::diagnose) enum Noise {
     /// A share of so many.
     Counted(f64),
     /// Standard error [1].
@@ -39,7 +39,7 @@ pub(super) enum Noise {
 
 /// A reading.
 #[derive(Debug, Clone)]
-pub(super) struct Datum {
+pub(in crate::diagnose) struct Datum {
     /// Index of the experiment.
     pub experiment: usize,
     /// Place among the readings of the experiment.
@@ -52,7 +52,7 @@ pub(super) struct Datum {
 
 /// All readings.
 #[derive(Debug, Clone)]
-pub(super) struct Data {
+pub(in crate::diagnose) struct Data {
     pub readings: Vec<Datum>,
     /// Kinds of observables.
     pub kinds: Vec<&'static str>,
@@ -84,7 +84,7 @@ struct KnownError {
 
 /// The scatter that was fitted to readings.
 #[derive(Debug, Clone, Default)]
-pub(super) struct FittedScatter {
+pub(in crate::diagnose) struct FittedScatter {
     /// Of each kind without errors and counts [1].
     pub unstated: Vec<f64>,
     /// Of each group, squared: of a stated error the standard deviation, of a count the
@@ -94,7 +94,7 @@ pub(super) struct FittedScatter {
 
 /// Predictions of all readings, prepared for many values of the data.
 #[derive(Debug, Clone)]
-pub(super) struct PreparedReadings {
+pub(in crate::diagnose) struct PreparedReadings {
     rows: Vec<PreparedReading>,
 }
 
@@ -147,7 +147,7 @@ impl Trust {
 
 /// Values of all readings, measured or drawn.
 #[derive(Debug, Clone, Default)]
-pub(super) struct ReadingValues {
+pub(in crate::diagnose) struct ReadingValues {
     value: Vec<f64>,
     /// Of a share of a count: its density.
     counted: Vec<Option<CountDensity>>,
@@ -155,7 +155,7 @@ pub(super) struct ReadingValues {
 
 /// Values with the weights of their experiments, ready to be compared with many predictions.
 #[derive(Debug)]
-pub(super) struct WeightedValues<'a> {
+pub(in crate::diagnose) struct WeightedValues<'a> {
     values: &'a ReadingValues,
     groups: Vec<WeightedGroup<'a>>,
     /// Readings that share a fitted scatter: index and weight.
@@ -171,27 +171,33 @@ struct WeightedGroup<'a> {
     constant: OverGrid,
 }
 
+/// Every reading with its noise, and the names of their kinds.
+fn readings(experiments: &[Experiment]) -> (Vec<Datum>, Vec<&'static str>) {
+    let mut kinds: Vec<&'static str> = Vec::new();
+    let mut readings = Vec::new();
+    for (experiment, one) in experiments.iter().enumerate() {
+        for (place, reading) in one.readings.iter().enumerate() {
+            let name = reading.quantity.kind();
+            let kind = kinds.iter().position(|kind| *kind == name).unwrap_or_else(|| {
+                kinds.push(name);
+                kinds.len() - 1
+            });
+            let noise = match (reading.error, reading.count) {
+                (Some(error), _) => Noise::Stated(error),
+                (None, Some(count)) if reading.quantity.is_share() => Noise::Counted(count),
+                (None, count) => Noise::Shared { kind, factor: 1.0 / count.unwrap_or(1.0) },
+            };
+            readings.push(Datum { experiment, place, kind, value: reading.value, noise });
+        }
+    }
+    (readings, kinds)
+}
+
 impl Data {
     /// The readings of experiments; `base` are the predictions of the base model, whose Monte Carlo
     /// variance all explanations share.
     pub fn new(experiments: &[Experiment], base: &[PredictedReading]) -> Self {
-        let mut kinds: Vec<&'static str> = Vec::new();
-        let mut readings = Vec::new();
-        for (experiment, one) in experiments.iter().enumerate() {
-            for (place, reading) in one.readings.iter().enumerate() {
-                let name = reading.quantity.kind();
-                let kind = kinds.iter().position(|kind| *kind == name).unwrap_or_else(|| {
-                    kinds.push(name);
-                    kinds.len() - 1
-                });
-                let noise = match (reading.error, reading.count) {
-                    (Some(error), _) => Noise::Stated(error),
-                    (None, Some(count)) if reading.quantity.is_share() => Noise::Counted(count),
-                    (None, count) => Noise::Shared { kind, factor: 1.0 / count.unwrap_or(1.0) },
-                };
-                readings.push(Datum { experiment, place, kind, value: reading.value, noise });
-            }
-        }
+        let (readings, kinds) = readings(experiments);
         let counted = |kind: usize| {
             readings.iter().any(|one: &Datum| {
                 one.kind == kind && matches!(one.noise, Noise::Shared { factor, .. } if factor < 1.0)
@@ -286,6 +292,17 @@ impl Data {
             group.constant.iter_mut().zip(constant).for_each(|(sum, one)| *sum += times * one);
         }
         WeightedValues { values, groups, shared }
+    }
+
+    /// Log likelihood of the measured values of each experiment with a weight [nats]. Their sum is that of all
+    /// together: what the scatter between runs, which they share, adds to it is spread evenly.
+    pub fn shares(&self, prepared: &PreparedReadings, weights: &[f64]) -> Vec<f64> {
+        let each = self.log_scores(prepared, &self.measured, weights);
+        let inside = each.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
+        let inside: Vec<f64> = inside.map(|(score, _)| *score).collect();
+        let all = self.score(prepared, &self.measured, weights);
+        let rest = (all - inside.iter().sum::<f64>()) / inside.len().max(1) as f64;
+        inside.iter().map(|score| score + rest).collect()
     }
 
     /// Log likelihood of values under predictions, each experiment with its weight [nats].

@@ -80,18 +80,8 @@ pub(super) fn proposals(data: &RigMeasurements, text: &CaseText, reach: &[Reach]
             all.push(moved(&middle, &ranges, |place| if place == beyond { share } else { 0.5 }));
         }
     }
-    for (key, steps, factor) in
-        LEVERS.into_iter().filter(|(key, ..)| free && ranges.iter().all(|one| one.key != *key))
-    {
-        let cell = middle.iter().find(|(known, _)| known == key).and_then(|(_, cell)| cell.parse().ok());
-        let Some(value) = cell.or_else(|| text.number(key)) else { continue };
-        for step in steps {
-            let value: f64 = if factor { value * step } else { value + step };
-            let mut settings = moved(&middle, &ranges, |_| 0.5);
-            settings.retain(|(known, _)| known != key);
-            settings.push((key.to_owned(), cell_of(value)));
-            all.push(settings);
-        }
+    if free {
+        all.extend(by_levers(&middle, &ranges, text));
     }
     let mut distinct: Vec<Settings> = Vec::new();
     for one in all {
@@ -100,6 +90,25 @@ pub(super) fn proposals(data: &RigMeasurements, text: &CaseText, reach: &[Reach]
         }
     }
     distinct
+}
+
+/// The middle of the ranges with one lever that the file does not move.
+fn by_levers(middle: &Settings, ranges: &[Range], text: &CaseText) -> Vec<Settings> {
+    let mut all = Vec::new();
+    for (key, steps, factor) in
+        LEVERS.into_iter().filter(|(key, ..)| ranges.iter().all(|one| one.key != *key))
+    {
+        let cell = middle.iter().find(|(known, _)| known == key).and_then(|(_, cell)| cell.parse().ok());
+        let Some(value) = cell.or_else(|| text.number(key)) else { continue };
+        for step in steps {
+            let value: f64 = if factor { value * step } else { value + step };
+            let mut settings = moved(middle, ranges, |_| 0.5);
+            settings.retain(|(known, _)| known != key);
+            settings.push((key.to_owned(), cell_of(value)));
+            all.push(settings);
+        }
+    }
+    all
 }
 
 /// Whether both set the same, however their numbers are written.

@@ -27,7 +27,7 @@ use super::prediction_table::predict;
 use super::study::RigStudy;
 use crate::dataset::RigMeasurements;
 use crate::rig::{CaseNumber, PredictedReading, PredictionError, SettingError};
-use nearwall::effect::EFFECTS;
+use nearwall::effect::{EFFECTS, FittedCurve};
 use nearwall::model::Model;
 
 /// With fewer experiments the verdict warns that effects may go undetected.
@@ -171,35 +171,35 @@ impl RigFindings<'_> {
         let first = findings.first().map_or("", |finding| finding.observable);
         let gain = gains.iter().find(|gain| gain.observable == first).or(gains.first()).cloned();
         let nothing = choice.named.is_empty() && self.refuted.is_empty();
-        let range = |input: &str| study.inputs.range(input);
-        let mut left_out = not_examined(study.forward.base(0), range, "over the impacts");
-        if study.forward.case_numbers().is_empty() {
-            left_out.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
-        }
-        let rows = Rows {
-            read: file.read,
-            used: file.read - file.rejected.len(),
-            held_out: gain.as_ref().map_or(0, |gain| gain.held_out_rows),
-            rejected: file.rejected.clone(),
-            ..Rows::default()
-        };
+        let held_out = gain.as_ref().map_or(0, |gain| gain.held_out_rows);
         Ok(Diagnosis {
             schema: "nearwall.diagnosis/2",
             seed: options.seed,
             level: options.level,
-            rows,
+            rows: rows(file, held_out),
             fit,
             findings,
             explanations: choice.explanations.record(),
             undecided: if nothing { choice.explanations.undecided() } else { Vec::new() },
             refuted: self.refuted.clone(),
             calibration,
-            not_examined: left_out,
+            not_examined: self.left_out(),
             gain,
             gains,
             extended_model: "extended.toml",
             ..Diagnosis::default()
         })
+    }
+
+    /// Why effects and numbers of the case were no candidates.
+    fn left_out(&self) -> Vec<NotExamined> {
+        let Self { study, .. } = self;
+        let range = |input: &str| study.inputs.range(input);
+        let mut all = not_examined(study.forward.base(0), range, "over the impacts");
+        if study.forward.case_numbers().is_empty() {
+            all.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
+        }
+        all
     }
 
     /// The causes and the changed numbers of the base model.
@@ -270,15 +270,6 @@ impl RigFindings<'_> {
         let Named { addition, gain, p_value, line } = named;
         let (gain, p_value) = (*gain, *p_value);
         let explanations = &self.choice.explanations;
-        let curve = addition.fitted_curve().map(|curve| CauseCurve {
-            factor: curve.on != nearwall::effect::CurveTarget::Capture,
-            at: curve
-                .axes
-                .iter()
-                .flat_map(|axis| axis.knots.iter().map(|k| rounded(*k).to_string()))
-                .collect(),
-            adds: curve.values.iter().map(|value| rounded(*value)).collect(),
-        });
         let observable = self.observable(addition)?;
         let cause = addition.name();
         let mut finding = Finding {
@@ -297,7 +288,7 @@ impl RigFindings<'_> {
             alternatives: explanations.alternatives(&cause),
             indistinguishable_from: explanations.in_stead_of(&cause),
             measure_next: Vec::new(),
-            curve,
+            curve: addition.fitted_curve().map(cause_curve),
             forms: form(addition, line).into_iter().collect(),
             surface: None,
             explanation: String::new(),
@@ -371,6 +362,20 @@ impl RigFindings<'_> {
             }
         };
         data.kinds.iter().enumerate().map(of).collect()
+    }
+}
+
+fn rows(file: &RigMeasurements, held_out: usize) -> Rows {
+    let used = file.read - file.rejected.len();
+    Rows { read: file.read, used, held_out, rejected: file.rejected.clone(), ..Rows::default() }
+}
+
+fn cause_curve(curve: FittedCurve) -> CauseCurve {
+    let knots = curve.axes.iter().flat_map(|axis| &axis.knots);
+    CauseCurve {
+        factor: curve.on != nearwall::effect::CurveTarget::Capture,
+        at: knots.map(|knot| rounded(*knot).to_string()).collect(),
+        adds: curve.values.iter().map(|value| rounded(*value)).collect(),
     }
 }
 

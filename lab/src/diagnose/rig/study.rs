@@ -26,6 +26,26 @@ pub(super) struct RigStudy<'a> {
     pub table: PredictionTable,
 }
 
+/// The readings with the errors of the case, and their predictions by the base model.
+///
+/// # Errors
+/// Why the base model cannot decide an impact.
+pub(in crate::diagnose) fn readings(
+    forward: &dyn Forward,
+) -> Result<(Data, Vec<PredictedReading>), PredictionError> {
+    let base = predict(forward, &[])?;
+    let mut data = Data::new(forward.experiments(), &base);
+    let prepared = data.prepare(&base);
+    let mut moved = Vec::new();
+    for (place, number) in forward.case_numbers().iter().enumerate() {
+        let one = RigAddition::case(place, number.clone());
+        let at = |widths: f64| predict(forward, &[one.moved(&[one.axes[0].coordinate(widths)])]);
+        moved.push([data.prepare(&at(-LINEAR)?), data.prepare(&at(LINEAR)?)]);
+    }
+    data.set_case_errors(&prepared, &moved, LINEAR);
+    Ok((data, base))
+}
+
 impl<'a> RigStudy<'a> {
     /// The study of the readings of a forward model.
     ///
@@ -36,16 +56,7 @@ impl<'a> RigStudy<'a> {
         seed: u64,
         progress: &'a (dyn Fn(&str) + Sync),
     ) -> Result<Self, PredictionError> {
-        let base = predict(forward, &[])?;
-        let mut data = Data::new(forward.experiments(), &base);
-        let prepared = data.prepare(&base);
-        let mut moved = Vec::new();
-        for (place, number) in forward.case_numbers().iter().enumerate() {
-            let one = RigAddition::case(place, number.clone());
-            let at = |widths: f64| predict(forward, &[one.moved(&[one.axes[0].coordinate(widths)])]);
-            moved.push([data.prepare(&at(-LINEAR)?), data.prepare(&at(LINEAR)?)]);
-        }
-        data.set_case_errors(&prepared, &moved, LINEAR);
+        let (data, base) = readings(forward)?;
         let inputs = RigInputs::new(forward);
         let table = PredictionTable::new(forward, &inputs, (&data, base), progress);
         Ok(Self { forward, data, seed, progress, inputs, table })
@@ -62,16 +73,9 @@ impl<'a> RigStudy<'a> {
         self.data.score(&self.data.prepare(predicted), self.data.values(), weights)
     }
 
-    /// Log likelihood of each experiment with a weight [nats]. Their sum is that of all together: what
-    /// the scatter between runs, which they share, adds to it is spread evenly.
+    /// Log likelihood of each experiment with a weight [nats].
     pub fn scores(&self, prepared: &PreparedReadings, weights: &[f64]) -> Vec<f64> {
-        let values = self.data.values();
-        let each = self.data.log_scores(prepared, values, weights);
-        let inside = each.iter().zip(weights).filter(|(_, weight)| **weight > 0.0);
-        let inside: Vec<f64> = inside.map(|(score, _)| *score).collect();
-        let all = self.data.score(prepared, values, weights);
-        let rest = (all - inside.iter().sum::<f64>()) / inside.len().max(1) as f64;
-        inside.iter().map(|score| score + rest).collect()
+        self.data.shares(prepared, weights)
     }
 
     /// All parameters fitted together, from their present values.

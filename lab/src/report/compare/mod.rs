@@ -13,15 +13,21 @@ struct Shown {
     of: fn(&ModelErrors) -> Option<Interval>,
 }
 
-const MEASURES: [Shown; 4] = [
+const MEASURES: [Shown; 5] = [
     Shown {
         id: "log-likelihood",
-        title: "Log likelihood of a row, higher is better",
+        title: "Mean log likelihood, higher is better",
         unit: "nats",
         of: |errors| errors.log_likelihood,
     },
     Shown { id: "rmse-e-n", title: "Root mean square error of e_n", unit: "1", of: |errors| errors.rmse_e_n },
     Shown { id: "rmse-e-t", title: "Root mean square error of e_t", unit: "1", of: |errors| errors.rmse_e_t },
+    Shown {
+        id: "rmse-share",
+        title: "Root mean square error of the other readings",
+        unit: "1",
+        of: |errors| errors.rmse_share,
+    },
     Shown { id: "log-loss", title: "Log loss of capture", unit: "nats", of: |errors| errors.log_loss_stick },
 ];
 
@@ -32,6 +38,16 @@ const METHOD: [&str; 3] = [
     "The models are ranked by the mean log likelihood of a row, all observables together. Stated standard errors weigh there; \
      the root mean square errors count each reading once, the log loss each impact.",
     "Intervals hold 95 % of 1000 bootstrap resamples of the groups, the same for all models. A difference whose interval \
+     includes 0 does not tell two models apart.",
+];
+
+/// The same of the readings of a rig.
+const METHOD_OF_RIGS: [&str; 3] = [
+    "No parameter of a model is fitted here. The case simulates every experiment with each model, with the same particles and \
+     the same random numbers.",
+    "The models are ranked by the mean log likelihood of a reading, as `nearwall diagnose --case` computes it: errors of counts, \
+     stated errors, scatter between runs, and the errors of the case's own numbers.",
+    "Intervals hold 95 % of 1000 bootstrap resamples of the experiments, the same for all models. A difference whose interval \
      includes 0 does not tell two models apart.",
 ];
 
@@ -52,7 +68,7 @@ pub fn page(comparison: &Comparison, data: &str, notes: &[String]) -> Result<Str
         page.table(table);
     }
     page.heading("Method");
-    for sentence in METHOD {
+    for sentence in if is_rig(comparison) { METHOD_OF_RIGS } else { METHOD } {
         page.text(sentence);
     }
     page.foot(&format!("Made from {data} with seed {}.", comparison.seed));
@@ -68,8 +84,16 @@ pub fn text(comparison: &Comparison) -> String {
     text
 }
 
+/// Whether the models are ranked on the readings of a rig.
+fn is_rig(comparison: &Comparison) -> bool {
+    comparison.rows.group_by == "experiment"
+}
+
 fn rows(comparison: &Comparison) -> String {
     let rows = comparison.rows;
+    if is_rig(comparison) {
+        return format!("{} of {} readings rank them, of {} experiments.", rows.used, rows.read, rows.groups);
+    }
     let groups = match rows.group_by {
         "series" => format!("in {} series", rows.groups),
         _ => "each a group of its own".to_owned(),
@@ -84,6 +108,9 @@ fn rows(comparison: &Comparison) -> String {
 /// One table a measure, and one of the rows.
 fn tables(comparison: &Comparison) -> Vec<Table> {
     let mut tables: Vec<Table> = MEASURES.iter().filter_map(|measure| table(comparison, measure)).collect();
+    if is_rig(comparison) {
+        return tables;
+    }
     let row = |model: &ModelResult| {
         let rows = &model.rows;
         let reason = rows.first_reason.clone().unwrap_or_default();

@@ -22,14 +22,14 @@ const LEAST_INFORMATION: f64 = 0.01;
 
 /// Predictions with the errors of the case that fit best, and the mean log likelihood [nats].
 #[derive(Debug, Clone)]
-pub(in crate::diagnose::rig) struct Settled {
+pub(in crate::diagnose) struct Settled {
     pub prepared: PreparedReadings,
     pub score: f64,
 }
 
 /// The errors of the case that fit best.
 #[derive(Debug, Clone)]
-pub(in crate::diagnose::rig) struct CaseFit {
+pub(in crate::diagnose) struct CaseFit {
     /// Chi-square without them [1].
     pub chi_square: f64,
     /// By number of the case: its error and the standard deviation of that, in its standard errors.
