@@ -17,7 +17,8 @@ use super::{CommandResult, progress};
 #[command(after_help = "Example:\n  nearwall compare impacts.csv --models wax.toml softer.toml\n  \
     nearwall compare lab.csv --columns lab.map.toml --models wax.toml softer.toml --out compared\n\n\
     Prints the ranking, and with --out writes compare.json and compare.html into the folder. The data file is that of\n\
-    `nearwall diagnose` (docs/data-file.md); rows of one `series` are drawn together. docs/compare.md describes the method.")]
+    `nearwall diagnose` (docs/reference/data-file.md); rows of one `series` are drawn together.\n\
+    docs/how-to/compare.md describes the method.")]
 pub struct Arguments {
     /// The measured impacts
     data: PathBuf,
