@@ -5,7 +5,7 @@
 //! the model with that property raised and lowered ([`Displaced`]).
 
 use std::cell::LazyCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use nearwall::impact::Impact;
@@ -15,6 +15,8 @@ use nearwall::model::{Displaced, MATTERS_FROM, Model};
 const DRAWS: usize = 64;
 /// Impacts of each reason whose outcome is also computed with the property displaced.
 const MEASURED: u64 = 200;
+/// Smaller changes of `e_n`, `e_t` or `p_stick` count as none.
+const MOVES_FROM: f64 = 1e-4;
 /// The reason of an impact that leaves a range in some draws of its effects only.
 const SOME_DRAWS: &str = "a law is left in some draws of the effects";
 
@@ -94,7 +96,7 @@ impl fmt::Display for Reason {
 
 /// A change of an outcome in words, after `many` for one of several.
 fn change(many: &str, moved: f64) -> String {
-    if moved < 1e-4 { "less than 0.0001".to_owned() } else { format!("{many}{moved:.4}") }
+    if moved < MOVES_FROM { "less than 0.0001".to_owned() } else { format!("{many}{moved:.4}") }
 }
 
 /// Impacts outside of ranges, by reason.
@@ -114,15 +116,30 @@ struct ReasonCount {
     most: f64,
 }
 
+impl ReasonCount {
+    /// Whether it was tried and moved nothing.
+    fn is_idle(&self) -> bool {
+        self.measured > 0 && self.most < MOVES_FROM
+    }
+}
+
+/// The properties and laws of reasons, each once.
+fn properties(reasons: &[(&String, &ReasonCount)]) -> String {
+    let name = |(stated, _): &(&String, _)| stated.split(" is ").next().unwrap_or_default().to_owned();
+    let names: BTreeSet<String> = reasons.iter().map(name).collect();
+    names.into_iter().collect::<Vec<_>>().join(", ")
+}
+
 impl RangeCounts {
     /// Adds an impact with the reasons why it lies outside of a range; none for one that does not.
     pub fn add(&mut self, reasons: &[Reason]) {
         self.impacts += 1;
         self.outside += u64::from(!reasons.is_empty());
         self.matter += u64::from(reasons.iter().any(Reason::matters));
-        for reason in reasons {
+        for (place, reason) in reasons.iter().enumerate() {
             let count = self.reasons.entry(reason.stated.clone()).or_default();
-            count.impacts += 1;
+            // Particle and wall of one material leave the same range.
+            count.impacts += u64::from(reasons[..place].iter().all(|other| other.stated != reason.stated));
             count.trial.clone_from(&reason.trial);
             if let Some(moved) = reason.moved {
                 count.measured += 1;
@@ -161,7 +178,7 @@ impl RangeCounts {
     }
 
     /// The counts in words: how many of the `things`, such as "rows", then a line a reason, those
-    /// that matter first. Empty where all lie inside.
+    /// that matter first, and one for all that move nothing. Empty where all lie inside.
     pub fn lines(&self, things: &str) -> Vec<String> {
         let Self { impacts, outside, matter, reasons } = self;
         if *outside == 0 {
@@ -176,14 +193,19 @@ impl RangeCounts {
             let key = |count: &ReasonCount| (count.trial.is_some(), -count.most);
             key(one).partial_cmp(&key(other)).unwrap_or(std::cmp::Ordering::Equal)
         });
-        let line = |(stated, count): (&String, &ReasonCount)| {
+        let line = |(stated, count): &(&String, &ReasonCount)| {
             let moved = count
                 .trial
                 .as_ref()
                 .map(|trial| format!("; {trial} moves the outcome by {}", change("up to ", count.most)));
             format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
         };
-        std::iter::once(first).chain(sorted.into_iter().map(line)).collect()
+        let (idle, moving): (Vec<_>, Vec<_>) = sorted.into_iter().partition(|(_, count)| count.is_idle());
+        let idle = match idle.as_slice() {
+            [] | [_] => idle.iter().map(line).collect(),
+            several => vec![format!("held without moving the outcome: {}", properties(several))],
+        };
+        std::iter::once(first).chain(moving.iter().map(line)).chain(idle).collect()
     }
 }
 
@@ -217,5 +239,22 @@ mod tests {
             lines[1].starts_with("2 of 2: surface_energy of stainless-steel is stated for T_w"),
             "{lines:?}"
         );
+    }
+
+    /// Of one impact a reason counts once, and reasons that moved nothing share a line.
+    #[test]
+    fn reasons_count_once_and_those_without_effect_share_a_line() {
+        let reason = |stated: &str, moved: f64| Reason {
+            stated: stated.to_owned(),
+            value: None,
+            trial: Some("ten percent".to_owned()),
+            moved: Some(moved),
+        };
+        let [a, b, c] = ["a is stated for x", "b is stated for x", "c is stated for x"];
+        let mut counts = RangeCounts::default();
+        counts.add(&[reason(a, 0.5), reason(a, 0.5), reason(c, 0.0), reason(b, 1e-5)]);
+        let lines = counts.lines("rows");
+        assert_eq!(lines[1], "1 of 1: a is stated for x; ten percent moves the outcome by up to 0.5000");
+        assert_eq!(lines[2..], ["held without moving the outcome: b, c"]);
     }
 }

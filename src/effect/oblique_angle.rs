@@ -10,7 +10,7 @@
 //! The form is assumed. Observations: Theories let `e_n` depend on `v_n` alone up to about 45° and
 //! on the angle beyond (with `q = 2` at most a quarter of `a` acts up to 45°). Tungsten dust on
 //! tungsten at a mean `theta` of 60.6° rebounds slower than by Thornton–Ning, the more so the
-//! higher `v_n` (set 4 of the dust impacts in the MIGRAINE paper, see docs/validation.md). Broom's
+//! higher `v_n` (set 4 of the dust impacts in the MIGRAINE paper, see docs/why/validation.md). Broom's
 //! 11 µm glass on aluminium gained 5 to 10 % from 0 to 45°, finer glass had a lower `e_n` there
 //! (cited by Troiano et al.). The sign is therefore free. Valid within the angles and speeds it was
 //! fitted on.

@@ -90,11 +90,11 @@ e_t = 0.7
 
     #[test]
     fn every_law_is_documented() {
-        let page = include_str!("../../docs/model-file.md");
+        let page = include_str!("../../docs/reference/model-file.md");
         for law in EROSION_LAWS {
             assert!(
                 page.contains(&format!("`{}`", law.name)),
-                "docs/model-file.md does not name {}",
+                "docs/reference/model-file.md does not name {}",
                 law.name
             );
         }

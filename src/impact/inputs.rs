@@ -2,7 +2,7 @@
 //!
 //! Everything that lists the inputs follows from [`for_each_input!`]: [`Impact`], [`INPUTS`], the C structs
 //! `nw_impact` and `nw_impacts`, `nearwall.h`, the bindings, the columns of data files and recorders, and the table
-//! of `docs/data-file.md`. After a change, `NEARWALL_BLESS=1 cargo test --test library interface` writes the
+//! of `docs/reference/data-file.md`. After a change, `NEARWALL_BLESS=1 cargo test --test library interface` writes the
 //! generated files; `cargo test` fails until they agree.
 
 /// Calls a macro with one row for each input, in the order of the C structs: description, name in files and in C,

@@ -214,12 +214,12 @@ mod tests {
 
     #[test]
     fn every_name_leads_back_to_its_law_and_is_documented() {
-        let page = include_str!("../../docs/model-file.md");
+        let page = include_str!("../../docs/reference/model-file.md");
         for law in VISCOSITY_LAWS {
             assert_eq!(ViscosityLaw::from_name(law.name), Some(law));
             assert!(
                 page.contains(&format!("\"{}\"", law.name)),
-                "docs/model-file.md does not name {}",
+                "docs/reference/model-file.md does not name {}",
                 law.name
             );
         }

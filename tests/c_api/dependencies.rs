@@ -1,4 +1,5 @@
-//! What comes in with the library is what `docs/dependencies.md` says, and asks for no younger Rust than we promise.
+//! What comes in with the library is what `docs/why/dependencies.md` says, and asks for no younger Rust than we
+//! promise.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -14,7 +15,7 @@ fn cargo(arguments: &[&str]) -> String {
 }
 
 fn page() -> String {
-    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/dependencies.md")).unwrap()
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/why/dependencies.md")).unwrap()
 }
 
 /// The crates that `cargo tree` names for the library: those in it, and those that only compile it.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::runner::{WAX, done, folder, nearwall, refused};
 
-const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/bench.md");
+const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/how-to/bench.md");
 
 /// The code blocks of the page, by the word after the fence.
 fn blocks(page: &str, kind: &str) -> Vec<String> {
@@ -23,7 +23,8 @@ fn with_texts(page: &str, texts: [String; 2]) -> String {
     whole
 }
 
-/// `docs/bench.md` has what `nearwall bench` prints, and what its example scores; `NEARWALL_BLESS=1` writes both.
+/// `docs/how-to/bench.md` has what `nearwall bench` prints, and what its example scores; `NEARWALL_BLESS=1` writes
+/// both.
 #[test]
 fn the_page_has_the_tables() {
     let page = std::fs::read_to_string(PAGE).unwrap();

@@ -8,7 +8,7 @@ use nearwall_lab::results::standalone::run;
 use nearwall_lab::simulate::Case;
 
 const DATA: &str = include_str!("../data/deposit_probe.csv");
-const PAGE: &str = include_str!("../../docs/physics.md");
+const PAGE: &str = include_str!("../../docs/why/physics.md");
 
 /// Heat exchange with a furnace, weak and strong: coefficient of the gas [W/(m² K)], emissivity [1]. Assumed.
 const EXCHANGES: [[f64; 2]; 2] = [[20.0, 0.5], [50.0, 0.8]];

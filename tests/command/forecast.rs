@@ -158,7 +158,8 @@ fn coverage(sets: u64, impacts: usize, softening: f64) -> [f64; 2] {
     [0, 1].map(|which| found.iter().map(|one| one[which]).sum::<f64>() / found.len() as f64)
 }
 
-/// `NEARWALL_FORECAST_SETS=30 cargo test --test command coverage -- --nocapture` makes the table of `docs/forecast.md`.
+/// `NEARWALL_FORECAST_SETS=30 cargo test --test command coverage -- --nocapture` makes the table of
+/// `docs/how-to/forecast.md`.
 #[test]
 fn coverage_of_the_bands_is_near_what_they_say() {
     let sets = std::env::var("NEARWALL_FORECAST_SETS").map_or(8, |sets| sets.parse().unwrap());

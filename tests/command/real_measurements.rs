@@ -143,7 +143,7 @@ fn check(set: &str) {
 const BEGIN: &str = "<!-- verdicts: written by the test -->\n";
 const END: &str = "<!-- end of verdicts -->";
 
-/// `docs/real-measurements.md` has the verdicts of today; `NEARWALL_BLESS=1` writes them.
+/// `docs/why/real-measurements.md` has the verdicts of today; `NEARWALL_BLESS=1` writes them.
 #[test]
 fn the_page_has_the_verdicts() {
     let (mut expected, mut table) = (Vec::new(), "| set | said | differs |\n|---|---|---|\n".to_owned());
@@ -155,7 +155,7 @@ fn the_page_has_the_verdicts() {
     }
     let (sets, names) = (outcomes().len(), expected.join(",\n"));
     let table = format!("{} of {sets} sets are diagnosed as expected:\n{names}.\n\n{table}", expected.len());
-    let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/real-measurements.md");
+    let page = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/..")).join("docs/why/real-measurements.md");
     let text = std::fs::read_to_string(&page).unwrap();
     let (head, rest) = text.split_once(BEGIN).unwrap();
     let (old, tail) = rest.split_once(END).unwrap();
@@ -185,7 +185,7 @@ sets! {
     ping_pong_bounces: "ping-pong-bounces",
     rubber_ball_bounces: "rubber-ball-bounces",
     rubber_ball_heights: "rubber-ball-heights",
-    #[should_panic(expected = "e_n is not explained")] // not reached yet: docs/real-measurements.md says why
+    #[should_panic(expected = "e_n is not explained")] // not reached yet: docs/why/real-measurements.md says why
     sand_on_sand_bed: "sand-on-sand-bed",
     squash_ball_temperature: "squash-ball-temperature",
     tennis_ball_bounces: "tennis-ball-bounces",

@@ -17,7 +17,7 @@
 //! - Intervals: 95 % percentiles of 10 000 draws of references with replacement, ChaCha8, fixed seed.
 //!
 //! `cargo test --test command slag_viscosity_study -- --nocapture` prints every figure of
-//! `docs/slag-viscosity.md`; with `NEARWALL_BLESS=1` before it, it also draws the figures there
+//! `docs/why/slag-viscosity.md`; with `NEARWALL_BLESS=1` before it, it also draws the figures there
 //! anew.
 
 use crate::common::measured_slags::{Measured, measured};
@@ -371,8 +371,8 @@ fn extended(all: &[&Block], candidates: usize) -> Vec<Unseen> {
 /// The page about the study has this number.
 fn written(number: &str) {
     assert!(
-        include_str!("../../docs/slag-viscosity.md").contains(number),
-        "docs/slag-viscosity.md lacks {number}"
+        include_str!("../../docs/why/slag-viscosity.md").contains(number),
+        "docs/why/slag-viscosity.md lacks {number}"
     );
 }
 
@@ -564,7 +564,7 @@ fn the_choice_drawn_anew() {
         println!("    without {source:36} ratio {found:.3} [{low:.3}, {high:.3}]");
         includes_one += usize::from(high > 1.0);
     }
-    assert_eq!(includes_one, 7, "docs/slag-viscosity.md says seven of twelve");
+    assert_eq!(includes_one, 7, "docs/why/slag-viscosity.md says seven of twelve");
 }
 
 /// The range of Urbain's and of Kalmanovitch and Frank's law is what was measured.

@@ -1,7 +1,7 @@
 //! Published observations of drops that bounce or stay beside what the law says of them.
 //!
 //! `tests/data/drop_rebound_published.csv` has the observations. The test writes their table in
-//! `docs/published-sticking.md`: `NEARWALL_BLESS=1 cargo test --test library drop_published`. A
+//! `docs/why/published-sticking.md`: `NEARWALL_BLESS=1 cargo test --test library drop_published`. A
 //! difference is shown as a difference; the test fails only when page and law say different things.
 
 use std::path::Path;
@@ -110,7 +110,7 @@ fn the_page_shows_what_the_law_says_of_drops() {
         rows.len(),
         missed.join("\n")
     );
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/published-sticking.md");
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/why/published-sticking.md");
     let page = std::fs::read_to_string(&path).unwrap();
     let fresh = replaced(&page, "drops", &table);
     if std::env::var_os("NEARWALL_BLESS").is_some() {
@@ -119,6 +119,7 @@ fn the_page_shows_what_the_law_says_of_drops() {
     }
     assert!(
         page == fresh,
-        "docs/published-sticking.md is out of date; `NEARWALL_BLESS=1 cargo test --test library drop_published` writes it again"
+        "docs/why/published-sticking.md is out of date; \
+         `NEARWALL_BLESS=1 cargo test --test library drop_published` writes it again"
     );
 }

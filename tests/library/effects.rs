@@ -99,7 +99,7 @@ fn rows(document: &str) -> Vec<(String, String)> {
 #[test]
 fn the_documents_list_the_effects_in_order() {
     assert_eq!(EFFECTS.map(|kind| kind.id), IDS);
-    for document in ["physics.md", "model-file.md"] {
+    for document in ["why/physics.md", "reference/model-file.md"] {
         let listed: Vec<String> = rows(document).into_iter().map(|(id, _)| id).collect();
         assert_eq!(listed, IDS, "docs/{document}");
     }
@@ -107,7 +107,7 @@ fn the_documents_list_the_effects_in_order() {
 
 #[test]
 fn the_model_file_document_has_every_parameter_with_its_unit() {
-    for (kind, (_, row)) in EFFECTS.iter().zip(rows("model-file.md")) {
+    for (kind, (_, row)) in EFFECTS.iter().zip(rows("reference/model-file.md")) {
         let cell = row.split('|').nth(1).unwrap().trim();
         let parameters = kind.parameters.iter().map(|p| format!("`{}` [{}]", p.name, p.unit));
         let parameters = parameters.collect::<Vec<_>>().join(", ");

@@ -259,7 +259,7 @@ fn blocks_have_declared_inputs_and_laws_alone_stay_prepared() {
 
 #[test]
 fn the_example_of_the_page_is_read() {
-    let page = include_str!("../../docs/model-file.md");
+    let page = include_str!("../../docs/reference/model-file.md");
     let section = page.split("\n## ").find(|section| section.starts_with("Fitted curves")).unwrap();
     let example = section.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();
     let commented = example.replace("\n# ", "\n");

@@ -441,14 +441,18 @@ fn errors_name_the_key_and_the_remedy() {
 
 #[test]
 fn the_documents_list_every_group_and_form() {
-    let page = include_str!("../../docs/model-file.md");
-    let physics = include_str!("../../docs/physics.md");
+    let page = include_str!("../../docs/reference/model-file.md");
+    let physics = include_str!("../../docs/why/physics.md");
     for group in &GROUPS {
-        assert!(physics.contains(&format!("| `{}` |", group.name)), "docs/physics.md lacks {}", group.name);
+        assert!(
+            physics.contains(&format!("| `{}` |", group.name)),
+            "docs/why/physics.md lacks {}",
+            group.name
+        );
     }
     for form in &FORMS {
         let row = format!("| `{}` | `{}`", form.name, form.equation.split(',').next().unwrap());
-        assert!(physics.contains(&row), "docs/physics.md lacks {row}");
+        assert!(physics.contains(&row), "docs/why/physics.md lacks {row}");
     }
     let section = page.split("\n## ").find(|section| section.starts_with("Groups and closed forms")).unwrap();
     let example = section.split("```toml\n").nth(1).unwrap().split("```").next().unwrap();

@@ -47,10 +47,10 @@ fn rows(document: &str, heading: &str) -> Vec<String> {
 
 #[test]
 fn the_model_file_document_has_every_law_with_its_parameters_and_units() {
-    let rows = rows("model-file.md", "Laws by name");
+    let rows = rows("reference/model-file.md", "Laws by name");
     for (table, name, parameters, _) in laws() {
         let row = rows.iter().find(|row| row.starts_with(&format!("| `{name}` | `[{table}]` |")));
-        let row = row.unwrap_or_else(|| panic!("docs/model-file.md has no row for {table} {name}"));
+        let row = row.unwrap_or_else(|| panic!("docs/reference/model-file.md has no row for {table} {name}"));
         for parameter in parameters {
             let unit = parameter.unit.replace("m2", "m²");
             assert!(row.contains(&format!("`{}` [{unit}]", parameter.name)), "{row}");
@@ -61,10 +61,10 @@ fn the_model_file_document_has_every_law_with_its_parameters_and_units() {
 
 #[test]
 fn the_physics_document_has_every_law_with_its_source() {
-    let rows = [rows("physics.md", "3. Normal"), rows("physics.md", "4. Tangential")].concat();
+    let rows = [rows("why/physics.md", "3. Normal"), rows("why/physics.md", "4. Tangential")].concat();
     for (_, name, _, origin) in laws() {
         let row = rows.iter().find(|row| row.starts_with(&format!("| `{name}` |")));
-        let row = row.unwrap_or_else(|| panic!("docs/physics.md has no row for {name}"));
+        let row = row.unwrap_or_else(|| panic!("docs/why/physics.md has no row for {name}"));
         let year = origin.source.split(|c: char| !c.is_ascii_digit()).find(|part| part.len() == 4).unwrap();
         assert!(row.contains(year), "{row}: {}", origin.source);
     }

@@ -1,7 +1,7 @@
 //! Published observations of sticking and rebound beside what a model file says of them.
 //!
 //! `tests/data/published_sticking.csv` has the observations; each names the model file that is
-//! asked. The test writes the tables of `docs/published-sticking.md`: `NEARWALL_BLESS=1 cargo test
+//! asked. The test writes the tables of `docs/why/published-sticking.md`: `NEARWALL_BLESS=1 cargo test
 //! --test library published_sticking` after a change of the physics. A difference is shown as a
 //! difference; the test fails only when the page and the models say different things.
 
@@ -386,7 +386,7 @@ fn mechanisms_table() -> String {
 /// The page and the models say the same.
 #[test]
 fn the_page_shows_what_the_models_say() {
-    let path: PathBuf = root().join("docs/published-sticking.md");
+    let path: PathBuf = root().join("docs/why/published-sticking.md");
     let page = std::fs::read_to_string(&path).unwrap();
     let fresh = replaced(&page, "observations", &observations_table());
     let fresh = replaced(&fresh, "mechanisms", &mechanisms_table());
@@ -399,7 +399,8 @@ fn the_page_shows_what_the_models_say() {
     }
     assert!(
         page == fresh,
-        "docs/published-sticking.md is out of date; `NEARWALL_BLESS=1 cargo test --test library published_sticking` writes it again"
+        "docs/why/published-sticking.md is out of date; \
+         `NEARWALL_BLESS=1 cargo test --test library published_sticking` writes it again"
     );
 }
 

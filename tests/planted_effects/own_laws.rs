@@ -1,4 +1,4 @@
-//! Plants whose law is the library's own, written again from the equations of docs/physics.md.
+//! Plants whose law is the library's own, written again from the equations of docs/why/physics.md.
 
 use crate::plant::Plant;
 

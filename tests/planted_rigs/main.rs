@@ -2,7 +2,7 @@
 //!
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_with_planted` scores the
 //!   command on all sets. It takes 10 to 20 minutes and does not reach all its gates yet:
-//!   `docs/rig-diagnosis.md` has the table.
+//!   `docs/how-to/rig-diagnosis.md` has the table.
 //! - `cargo test --release --test planted_rigs -- --nocapture --ignored rigs_that_scatter` checks
 //!   that runs which scatter more than stated name no cause, and the seconds.
 //! - `... --ignored rigs_with_a_group` checks that laws over a dimensionless group are found as such.

@@ -1,7 +1,7 @@
 """Runs nearwall and other regressions on planted laws of a dimensionless group; writes the second table of
-`docs/peers.md`.
+`docs/why/peers.md`.
 
-    validation/peers/run groups [--nearwall FILE] [--seed 11] [--nulls 6] [--jobs 1] [--out docs/peers.md]
+    validation/peers/run groups [--nearwall FILE] [--seed 11] [--nulls 6] [--jobs 1] [--out docs/why/peers.md]
 
 Columns of each set: v_n, d, mu_p and e_n = f(group) with Gaussian noise. The base model has a constant e_n = 0.5.
 """
@@ -261,7 +261,7 @@ def main():
     arguments.add_argument("--seed", type=int, default=11, help="of the sets")
     arguments.add_argument("--nulls", type=int, default=6)
     arguments.add_argument("--jobs", type=int, default=1)
-    arguments.add_argument("--out", type=Path, default=REPOSITORY / "docs/peers.md")
+    arguments.add_argument("--out", type=Path, default=REPOSITORY / "docs/why/peers.md")
     options = arguments.parse_args()
 
     print(f"seed {options.seed}", flush=True)

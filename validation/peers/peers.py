@@ -1,4 +1,4 @@
-"""Runs nearwall, Operon and a lasso on every planted set of a folder and writes the table of `docs/peers.md`."""
+"""Runs nearwall, Operon and a lasso on every planted set of a folder and writes the table of `docs/why/peers.md`."""
 
 import argparse
 import platform
@@ -173,7 +173,7 @@ def main():
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("sets", type=Path, help="folder with NAME.csv, NAME.toml and NAME.truth.json")
     arguments.add_argument("--nearwall", default=str(REPOSITORY / "target/release/nearwall"))
-    arguments.add_argument("--out", type=Path, default=REPOSITORY / "docs/peers.md")
+    arguments.add_argument("--out", type=Path, default=REPOSITORY / "docs/why/peers.md")
     arguments.add_argument("--seed", type=int, default=1, help="of the methods")
     arguments.add_argument("--set-seed", default="SEED", help="NEARWALL_TEST_SEED of the sets, for the page")
     arguments.add_argument("--jobs", type=int, default=2)

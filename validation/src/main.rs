@@ -19,7 +19,7 @@ struct Arguments {
     #[arg(long)]
     short: bool,
     /// The summary kept beside the code: the run fails when it says something else. NEARWALL_BLESS=1 writes it anew.
-    #[arg(long, default_value = "docs/validation.md")]
+    #[arg(long, default_value = "docs/why/validation.md")]
     summary: PathBuf,
 }
 

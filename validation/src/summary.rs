@@ -145,7 +145,7 @@ mod tests {
     fn the_readme_counts_as_the_summary() {
         let root = concat!(env!("CARGO_MANIFEST_DIR"), "/..");
         let read = |name: &str| std::fs::read_to_string(format!("{root}/{name}")).unwrap();
-        let (summary, readme) = (read("docs/validation.md"), read("README.md"));
+        let (summary, readme) = (read("docs/why/validation.md"), read("README.md"));
         for (study, paper) in [("| Tungsten dust", "| tungsten paper"), ("| Wax on targets", "| wax paper")] {
             let row = summary.lines().find(|line| line.starts_with(study)).unwrap();
             let counts: Vec<&str> = row.split('|').skip(2).take(3).map(str::trim).collect();

@@ -180,9 +180,10 @@ def diagnose(table: Table, model: Optional[Union[Model, AnyPath]] = None, *, cas
 
     table: a pandas or polars frame, a dict of arrays, or the path of a CSV file, three rows or more. One row is an impact or an
         average: v_n [m/s] and other inputs in SI units, and at least one of e_n, e_t [1], outcome ("rebound" or "stick") and
-        capture_efficiency [1]; every other column is a possible cause (docs/data-file.md).
+        capture_efficiency [1]; every other column is a possible cause (docs/reference/data-file.md).
     model: the base model or the path of its file.
-    case: path of a case of `simulate`: rows are experiments on this rig (docs/rig-diagnosis.md), and the model is the case's.
+    case: path of a case of `simulate`: rows are experiments on this rig (docs/how-to/rig-diagnosis.md), and the model
+        is the case's.
     impacts: folder of OpenFOAM cases with recorded impacts: rows are experiments on a rig; model is that of these runs.
     columns: path of a column map for a laboratory's own columns and units.
     group: column that tells groups of rows apart that may share an error.

@@ -113,7 +113,7 @@ def check(model: Union[Model, AnyPath]) -> str:
 
 @dataclass(frozen=True, repr=False)
 class Comparison(Page):
-    """The result of `compare`: `record` is compare.json (docs/compare.md)."""
+    """The result of `compare`: `record` is compare.json (docs/how-to/compare.md)."""
 
     record: Dict[str, Any]
 
@@ -207,7 +207,7 @@ def map(model: Union[Model, AnyPath], x: Optional[Axis] = None, y: Optional[Axis
 @dataclass(frozen=True, repr=False)
 class Sensitivity(Page):
     """Which numbers of a case decide what its walls capture: `frame` has a row for each number and wall, the largest change
-    first; `record` is sensitivity.json (docs/forecast.md)."""
+    first; `record` is sensitivity.json (docs/how-to/forecast.md)."""
 
     record: Dict[str, Any]
     frame: Frame

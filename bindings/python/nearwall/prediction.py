@@ -19,7 +19,7 @@ def predict(table: Table, model: Union[Model, AnyPath], *, wall: Optional[str] =
     """Adds what the model predicts on average to each impact, as the command `nearwall predict` does.
 
     table: a pandas or polars frame, a dict of arrays, or the path of a CSV file, N rows. Its columns are v_n [m/s] and any of
-        v_t [m/s], d [m], T_p, T_w [K] and the other inputs (docs/data-file.md); blanks take their defaults, other columns are
+        v_t [m/s], d [m], T_p, T_w [K] and the other inputs (docs/reference/data-file.md); blanks take their defaults, other columns are
         kept.
     model: a model or the path of a model file.
     wall: the wall that is hit; by default the column `wall`, then the wall `default`, then the only wall.

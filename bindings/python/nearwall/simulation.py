@@ -13,7 +13,7 @@ from .wheel import AnyPath, compiled, warn
 
 @dataclass(frozen=True, repr=False)
 class Simulation(Page):
-    """What a case gave: `summary` is summary.json (docs/standalone.md), `impacts` a frame with one row for each recorded hit
+    """What a case gave: `summary` is summary.json (docs/reference/case-file.md), `impacts` a frame with one row for each recorded hit
     (inputs in SI units, outcome, wall), `deposit` a frame of what lay on the walls over time or None, `html` the page."""
 
     summary: Dict[str, Any]
@@ -32,7 +32,7 @@ class Simulation(Page):
 def simulate(case: AnyPath, *, draws: Optional[AnyPath] = None, kind: Optional[str] = None) -> Simulation:
     """Follows the particles of a case file through its gas, as the command `nearwall simulate` does.
 
-    case: path of the case file (docs/standalone.md).
+    case: path of the case file (docs/reference/case-file.md).
     draws: folder of the model files that `Diagnosis.save` wrote into `draws`: adds 95 % bands of the captures.
     kind: "pandas", "polars" or "dict" for the tables; by default pandas if it is installed, then polars.
 

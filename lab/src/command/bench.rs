@@ -22,7 +22,7 @@ const DEFAULT_LAW: &str = "thornton-ning";
     nearwall bench --external 'python3 law.py'   a program that reads impacts and writes e_n,e_t,p\n\n\
     A program reads the table that --impacts prints on standard input and writes a heading with e_n, e_t and p (and\n\
     e_n_low, e_n_high, e_t_low, e_t_high if it has bands) and one row for each impact; a blank cell is no answer.\n\
-    docs/bench.md describes the method."
+    docs/how-to/bench.md describes the method."
 )]
 pub struct Arguments {
     /// A model file, or the name of a law

@@ -19,8 +19,9 @@ use super::{CommandResult, progress};
     nearwall compare lab.csv --columns lab.map.toml --models wax.toml softer.toml --out compared\n  \
     nearwall compare rig.csv --case case.toml --models wax.toml softer.toml\n\n\
     Prints the ranking, and with --out writes compare.json and compare.html into the folder. The data file is that of\n\
-    `nearwall diagnose` (docs/data-file.md); rows of one `series` are drawn together. With --case the rows are experiments\n\
-    of a rig (docs/rig-diagnosis.md), which the case simulates with each model. docs/compare.md describes the method.")]
+    `nearwall diagnose` (docs/reference/data-file.md); rows of one `series` are drawn together. With --case the rows\n\
+    are experiments of a rig (docs/how-to/rig-diagnosis.md), which the case simulates with each model.\n\
+    docs/how-to/compare.md describes the method.")]
 pub struct Arguments {
     /// The measured impacts
     data: PathBuf,

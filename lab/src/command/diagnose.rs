@@ -25,9 +25,9 @@ use super::{CommandResult, progress};
     nearwall diagnose impacts.csv --model wax.toml --draws 39 --out diagnosis\n  \
     nearwall diagnose deposits.csv --impacts runs --model wax.toml --out diagnosis --draws 39\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
-    e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/data-file.md describes the data\n\
-    file and --columns, docs/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
-    settings of the case, and observables as captured@WALL (docs/rig-diagnosis.md).")]
+    e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/reference/data-file.md\n\
+    describes the data file and --columns, docs/how-to/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
+    settings of the case, and observables as captured@WALL (docs/how-to/rig-diagnosis.md).")]
 pub struct Arguments {
     /// The measured impacts
     data: PathBuf,
@@ -57,7 +57,7 @@ pub struct Arguments {
     #[arg(long, value_name = "MAP.toml")]
     columns: Option<PathBuf>,
     /// Column that tells groups of rows apart that may share an error; its numbers are labels. By
-    /// default columns such as series, day, batch or lab (docs/data-file.md lists them)
+    /// default columns such as series, day, batch or lab (docs/reference/data-file.md lists them)
     #[arg(long, value_name = "COLUMN")]
     group: Option<String>,
     /// What can be varied in the next measurement, in SI units: an input of the impacts (T_p=290:400), or with --case

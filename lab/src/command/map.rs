@@ -39,8 +39,8 @@ fn after_help() -> String {
     format!(
         "Example:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700 --set v_n=5 -o map\n\n\
          Writes map.html and map.csv into the folder. The inputs are\n{}.\n\
-         An axis has {DEFAULT_POINTS} points, evenly spaced in the logarithm from a ratio of 30 of both ends on. docs/map.md \n\
-         describes the numbers.",
+         An axis has {DEFAULT_POINTS} points, evenly spaced in the logarithm from a ratio of 30 of both ends on.\n\
+         docs/how-to/map.md describes the numbers.",
         inputs.join(", ")
     )
 }

@@ -16,7 +16,7 @@ use super::{CommandResult, progress};
     nearwall sensitivity tutorials/standalone/waxRig.toml --set gas.temperature=358.15 \\\n    \
     --set particles.temperature=358.15 --set walls.target.temperature=358.15\n\n\
     Moves each number of the materials, the model and the case down and up within its range, and writes sensitivity.csv,\n\
-    sensitivity.json and report.html into the folder. docs/forecast.md describes the ranges. A [sweep] is left out."
+    sensitivity.json and report.html into the folder. docs/how-to/forecast.md describes the ranges. A [sweep] is left out."
 )]
 pub struct Arguments {
     /// The case file

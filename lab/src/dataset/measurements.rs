@@ -691,7 +691,7 @@ mod tests {
 
     #[test]
     fn the_examples_of_the_page_are_read() {
-        let page = include_str!("../../../docs/data-file.md");
+        let page = include_str!("../../../docs/reference/data-file.md");
         let data = read(page.split("```\n").nth(1).unwrap());
         assert_eq!((data.rows.len(), data.rejected.len(), data.columns.len()), (2, 0, 2));
         let data = mapped(

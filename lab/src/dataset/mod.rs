@@ -7,7 +7,7 @@
 //! `v_n` is required, a blank or absent input takes its value in [`nearwall::Impact::default`]. A
 //! row that cannot be used becomes a [`BadRow`].
 //!
-//! Format for users: `docs/data-file.md`.
+//! Format for users: `docs/reference/data-file.md`.
 
 mod any_unit;
 mod builder;

@@ -3,7 +3,7 @@
 //! Data flow: measurements → [`Model::resolve`] on every row → residuals → candidates, tested and
 //! fitted → forward selection → extended model → gain of its file on held-out rows → record.
 //! Effects are known only through their [`nearwall::effect::EffectInfo`], so every effect of the
-//! list is a candidate. Method and limits: `docs/diagnosis.md`. [`ImpactDiagnosis`] does all this
+//! list is a candidate. Method and limits: `docs/how-to/diagnosis.md`. [`ImpactDiagnosis`] does all this
 //! for the files of a user; [`comparison`] ranks several models with the same likelihood,
 //! [`benchmark`] scores laws on all measured sets.
 

@@ -1,7 +1,7 @@
 //! Maps of a model: what it decides over two inputs of an impact while the other inputs are fixed.
 //!
 //! A [`Map`] has a [`Cell`] for each pair of values of two [`InputAxis`]. Random draws are averaged. Format for users:
-//! `docs/map.md`.
+//! `docs/how-to/map.md`.
 
 mod axis;
 mod cell;

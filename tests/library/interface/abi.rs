@@ -161,14 +161,14 @@ fn every_kind_of_change_is_refused() {
     assert!(may_follow(&kept, "").is_err() && may_follow("", &kept).is_err());
 }
 
-/// The numbers and names of `docs/other-codes.md`, and the soname in the bindings that ask the loader for it.
+/// The numbers and names of `docs/how-to/other-codes.md`, and the soname in the bindings that ask the loader for it.
 #[test]
 fn the_page_for_other_codes_is_true() {
     let read = |path: &str| std::fs::read_to_string(root().join(path)).unwrap();
-    let (page, fresh) = (read("docs/other-codes.md"), fresh());
+    let (page, fresh) = (read("docs/how-to/other-codes.md"), fresh());
     let soname = fresh.lines().next().unwrap().strip_prefix("soname ").unwrap();
     for path in [
-        "docs/other-codes.md",
+        "docs/how-to/other-codes.md",
         "build.rs",
         "bindings/python/nearwall/library.py",
         "bindings/rust/src/main.rs",

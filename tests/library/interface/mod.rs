@@ -36,7 +36,7 @@ fn generated_files_are_up_to_date() {
         block("bindings/python/nearwall/library.py", write::python(&header)),
         block(rust, write::rust_example(&header, &read(rust))),
         ("tests/c_api/interface.rs", write::rust_tests(&header)),
-        block("docs/data-file.md", write::inputs_table()),
+        block("docs/reference/data-file.md", write::inputs_table()),
         ("fuzz/words.dict", words(&read("fuzz/words.dict"))),
     ];
     for (path, fresh) in files {

@@ -3,7 +3,7 @@
 //! A measured row is split into readings of one observable; each source of measurements is predicted
 //! with numbers and a scatter that were fitted to the other sources only, and each source counts
 //! once. The likelihood is that of [`super::comparison`]. Laws are put on the materials of each set.
-//! The reference is a level: the mean of the other sources. Method for users: `docs/bench.md`.
+//! The reference is a level: the mean of the other sources. Method for users: `docs/how-to/bench.md`.
 
 mod contestant;
 mod external;
@@ -174,7 +174,7 @@ mod tests {
         }
     }
 
-    /// `ln(0.98 N(distance; deviation) + 0.02 * 0.8)`, as `docs/diagnosis.md` states the likelihood.
+    /// `ln(0.98 N(distance; deviation) + 0.02 * 0.8)`, as `docs/how-to/diagnosis.md` states the likelihood.
     fn log_density(distance: f64, deviation: f64) -> f64 {
         let normal =
             (-0.5 * (distance / deviation).powi(2)).exp() / (deviation * std::f64::consts::TAU.sqrt());

@@ -4,7 +4,7 @@
 //! estimated, always on other rows than those that it scores. Rows that fitted a model before are
 //! counted, if its file states them. Intervals are
 //! those of a bootstrap over groups with the same resamples for all models. On the readings of a rig
-//! ([`compare_rig`]) the groups are experiments. Method for users: `docs/compare.md`.
+//! ([`compare_rig`]) the groups are experiments. Method for users: `docs/how-to/compare.md`.
 
 mod bootstrap;
 mod groups;

@@ -227,7 +227,7 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
          chance. Explanations are compared by their evidence, which counts parameters and prior probabilities; a cause is \
          named from a probability of 0.8 on, unless rows that it has not seen are predicted worse. Seed {seed} draws the \
          rows that are held out. \
-         docs/diagnosis.md of nearwall describes the method and its limits."
+         docs/how-to/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);
     page.code(format!(

@@ -130,7 +130,7 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
          probabilities, beside a scatter between runs that all of them share; a cause is named from a probability of 0.8 on, \
          unless experiments that it has not seen are predicted worse. Intervals hold 95 % \
          of draws from the likelihood of all parameters together. The gain is cross-validated over whole experiments. Seed {seed} \
-         decides the draws and the parts of the cross-validation. docs/rig-diagnosis.md of nearwall describes the method and its \
+         decides the draws and the parts of the cross-validation. docs/how-to/rig-diagnosis.md of nearwall describes the method and its \
          limits."
     ));
     let data = quoted(from.data);

@@ -43,7 +43,8 @@ impl Turbulence {
     }
 
     /// Whether a particle of a relaxation time [s] is one of those that reach walls too seldom: of 0.3 to 4 viscous
-    /// times, above those that diffusion brings and below those that sweeps throw there (measured, `docs/physics.md`).
+    /// times, above those that diffusion brings and below those that sweeps throw there (measured,
+    /// `docs/why/physics.md`).
     pub fn is_slow(&self, relaxation: f64, gas: &GasState) -> bool {
         let viscous_time = gas.viscosity / gas.density / (self.friction_velocity * self.friction_velocity);
         (0.3..4.0).contains(&(relaxation / viscous_time))
