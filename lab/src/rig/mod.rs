@@ -13,6 +13,7 @@ mod case_change;
 mod case_number;
 mod case_text;
 mod draws;
+mod number_name;
 mod recorded_flight;
 mod recording;
 mod replay_error;

@@ -15,6 +15,7 @@ use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
 use super::case_number::SPREAD;
 use super::case_text::{CaseText, change_value};
+use super::number_name::{name_of, unit_of_key};
 use crate::simulate::{DistributionKey, number_of};
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
@@ -105,6 +106,29 @@ impl Move {
     }
 }
 
+/// What the value and the ends of a number are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Scale {
+    /// Values in its unit.
+    Value,
+    /// Factors on all values of a table, polynomial or list.
+    Factor,
+    /// Differences of all values of a table, polynomial or list, in its unit.
+    Difference,
+}
+
+impl Scale {
+    /// Its name in files.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Factor => "factor",
+            Self::Difference => "difference",
+        }
+    }
+}
+
 /// How well a number is known without a stated range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -135,6 +159,15 @@ struct Number {
 }
 
 impl Number {
+    /// What its value and its ends are.
+    fn scale(&self) -> Scale {
+        match (self.value, self.how) {
+            (Some(_), _) => Scale::Value,
+            (None, Move::Difference(_)) => Scale::Difference,
+            (None, _) => Scale::Factor,
+        }
+    }
+
     /// Its value; for all values of a table together the factor 1 or the difference 0.
     fn start(&self) -> f64 {
         let all = if matches!(self.how, Move::Difference(_)) { 0.0 } else { 1.0 };
@@ -164,6 +197,12 @@ pub struct WallEffect {
 pub struct NumberEffect {
     /// Dotted key in the case, with the model as `model`.
     pub key: String,
+    /// The same in words.
+    pub name: String,
+    /// Its unit: "1" for none, "" where it is not known.
+    pub unit: &'static str,
+    /// What value and ends are.
+    pub scale: Scale,
     /// Its value; for a table, polynomial or list the factor 1 or the difference 0 of all its values.
     pub value: f64,
     /// The low end of its range; for a table a factor or a difference.
@@ -209,6 +248,9 @@ impl Sensitivity {
         writer.write_record([
             "rank",
             "number",
+            "name",
+            "unit",
+            "scale",
             "wall",
             "value",
             "low",
@@ -224,7 +266,8 @@ impl Sensitivity {
         ])?;
         for (rank, number) in self.numbers.iter().enumerate() {
             for wall in &number.walls {
-                let mut row = vec![(rank + 1).to_string(), number.key.clone(), wall.wall.clone()];
+                let mut row = vec![(rank + 1).to_string(), number.key.clone(), number.name.clone()];
+                row.extend([number.unit, number.scale.name(), &wall.wall].map(str::to_owned));
                 row.extend([number.value, number.low, number.high].map(|value| value.to_string()));
                 let shares =
                     [wall.captured_low, wall.captured, wall.captured_high, wall.change, wall.change_error];
@@ -344,6 +387,9 @@ impl SensitivityCase {
         let walls: Vec<WallEffect> = base.walls.iter().enumerate().map(wall).collect();
         Ok(NumberEffect {
             key: number.key.clone(),
+            name: name_of(&number.key),
+            unit: unit_of_key(&number.key),
+            scale: number.scale(),
             value: number.start(),
             low,
             high,

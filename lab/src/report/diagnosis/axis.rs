@@ -1,8 +1,9 @@
 //! Columns as x axes: numbers on a linear or logarithmic axis, words side by side.
 
 use super::super::chart::Chart;
-use super::super::format::{number, with_unit};
+use super::super::format::{shown_unit, span, with_unit};
 use crate::diagnose::{Sample, SampleRow};
+use nearwall::impact::INPUTS;
 
 /// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
 pub(super) const DISTINCT: usize = 12;
@@ -89,7 +90,7 @@ impl<'a> ColumnAxis<'a> {
                 format!("= {}", label.map_or("", |label| &labels[label]))
             }
             Scale::Numbers { .. } if low == high => format!("= {}", with_unit(low, self.unit)),
-            Scale::Numbers { .. } => format!("from {} to {}", number(low), with_unit(high, self.unit)),
+            Scale::Numbers { .. } => format!("from {}", span([low, high], self.unit)),
         }
     }
 
@@ -102,10 +103,17 @@ impl<'a> ColumnAxis<'a> {
         }
     }
 
+    /// The name of the column; of an input with its meaning.
+    fn words(&self) -> String {
+        let input = INPUTS.iter().find(|input| input.name == self.name);
+        input.map_or_else(|| self.name.to_owned(), |input| format!("{}, {}", input.words(), self.name))
+    }
+
     /// An empty chart over this column.
     pub fn chart(&self, title: &str, y_label: &str) -> Chart {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        let chart = Chart::new(title, &format!("{}{unit}", self.name), y_label);
+        let (factor, unit) = shown_unit(self.unit, self.ends().map_or(f64::INFINITY, |[_, high]| high));
+        let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        let chart = Chart::new(title, &format!("{}{unit}", self.words()), y_label).x_factor(factor);
         match &self.scale {
             Scale::Words { labels, .. } => chart.words(labels),
             Scale::Numbers { log: true, .. } => chart.log_x(),

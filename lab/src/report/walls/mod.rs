@@ -352,11 +352,11 @@ impl<'a> RunComparison<'a> {
         heights: impl Fn(&Series<'_>) -> Option<Vec<f64>>,
     ) -> Vec<Figure> {
         let mut any = false;
-        for series in self.series() {
+        for (place, series) in self.series().into_iter().enumerate() {
             if let Some(heights) =
                 heights(&series).filter(|heights| heights.iter().any(|height| *height > 0.0))
             {
-                chart = chart.histogram(series.label, edges, &heights);
+                chart = chart.coloured(place).histogram(series.label, edges, &heights);
                 any = true;
             }
         }
