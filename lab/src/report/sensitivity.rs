@@ -8,6 +8,8 @@ use crate::rig::sensitivity::{NumberEffect, Quality, Scale, Sensitivity, WallEff
 /// Numbers in a figure and in the table.
 const SHOWN_NUMBERS: usize = 15;
 const LISTED_NUMBERS: usize = 60;
+/// A bar is drawn from this share of the largest change on [1].
+const LEAST_SHOWN: f64 = 0.01;
 
 /// Makes the page.
 ///
@@ -49,21 +51,21 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
         .filter(|(_, effect)| effect.largest > 0.0)
         .take(LISTED_NUMBERS)
         .collect();
-    let mut header = ["rank", "number", "unit", "low", "value", "high", "range", "source", "key"]
-        .map(str::to_owned)
-        .to_vec();
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
-    header.extend(walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall)));
+    let captured = walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall));
+    let before = ["rank", "number", "unit", "low", "value", "high"].map(str::to_owned);
+    let after = ["range", "key", "source"].map(str::to_owned);
+    let header = before.into_iter().chain(captured).chain(after).collect();
     let cells = |(rank, effect): &(usize, &NumberEffect)| {
         let (factor, unit) = shown(effect);
         let mut cells = vec![(rank + 1).to_string(), effect.name.clone(), unit];
         cells.extend([effect.low, effect.value, effect.high].map(|value| number(factor * value)));
-        let source = effect.source.clone().unwrap_or_else(|| "none given".to_owned());
-        cells.extend([effect.range.clone(), source, effect.key.clone()]);
         cells.extend(effect.walls.iter().map(|wall| {
             let shares = [wall.captured_low, wall.captured, wall.captured_high].map(percent);
             shares.join(", ")
         }));
+        let source = effect.source.clone().unwrap_or_else(|| "none given".to_owned());
+        cells.extend([effect.range.clone(), effect.key.clone(), source]);
         cells
     };
     let status = rows.iter().map(|(_, effect)| match effect.quality {
@@ -108,8 +110,9 @@ fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
     let mut effects: Vec<(String, WallEffect, [String; 2])> =
         found.numbers.iter().filter_map(of_wall).collect();
     let base = effects.first()?.1.clone();
-    effects.retain(|(_, effect, _)| effect.change > 0.0);
     effects.sort_by(|(_, a, _), (_, b, _)| b.change.total_cmp(&a.change));
+    let least = LEAST_SHOWN * effects.first().map_or(0.0, |(_, largest, _)| largest.change);
+    effects.retain(|(_, effect, _)| effect.change > 0.0 && effect.change >= least);
     effects.truncate(SHOWN_NUMBERS);
     let row = |(name, effect, ends): (String, WallEffect, [String; 2])| {
         let results = [effect.captured_low, effect.captured_high];

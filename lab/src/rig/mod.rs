@@ -27,6 +27,7 @@ pub use case_change::{FARTHEST, changed};
 pub use case_number::CaseNumber;
 pub use case_text::{CaseText, SettingError, SettingFault};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};
+pub(crate) use number_name::name_of;
 pub use recording::ReplayAccount;
 pub use replay_error::ReplayError;
 pub use replayed::ReplayedRig;

@@ -37,7 +37,7 @@ const UNITS: [(&str, &str); 29] = [
 ];
 
 /// The number at a dotted key in words, for instance "mean diameter of the particles".
-pub(super) fn name_of(key: &str) -> String {
+pub(crate) fn name_of(key: &str) -> String {
     let parts: Vec<&str> = key.split('.').collect();
     match parts.as_slice() {
         ["model", "materials", material, "composition", oxide] => format!("share of {oxide} in {material}"),
@@ -61,6 +61,9 @@ fn words(keys: &[&str]) -> String {
     let word = |key: &&str| match *key {
         "pre_exponential" => "pre-exponential factor".to_owned(),
         "carbon" => "share of carbon".to_owned(),
+        "youngs_modulus" => "Young's modulus".to_owned(),
+        "poisson_ratio" => "Poisson's ratio".to_owned(),
+        name @ ("e_n" | "e_t") => name.to_owned(),
         other => other.trim_end_matches("_deg").replace('_', " "),
     };
     match keys {

@@ -44,8 +44,11 @@ pub(super) struct NamedLaw {
 
 /// Every law of the library.
 pub(super) fn named_laws() -> Vec<NamedLaw> {
-    let law =
-        |side, name: &str, numbers: &[(&'static str, Search)]| NamedLaw { side, name: name.to_owned(), numbers: numbers.to_vec() };
+    let law = |side, name: &str, numbers: &[(&'static str, Search)]| NamedLaw {
+        side,
+        name: name.to_owned(),
+        numbers: numbers.to_vec(),
+    };
     let share = Search::Linear(0.05, 1.0);
     let yielding = Search::Log(0.35, 5.6);
     let friction = Search::Linear(0.03, 0.9);
@@ -74,7 +77,8 @@ pub(super) fn capture_laws() -> Vec<NamedLaw> {
     let law = |name: String, numbers: Vec<_>| NamedLaw { side: Side::Capture, name, numbers };
     // The literature has 8 to 1e7 Pa s.
     let reference = ("reference_viscosity", Search::Log(1.0, 1e8));
-    let mut laws: Vec<NamedLaw> = ["fusion", "melt-fraction"].map(|name| law(name.to_owned(), Vec::new())).into();
+    let mut laws: Vec<NamedLaw> =
+        ["fusion", "melt-fraction"].map(|name| law(name.to_owned(), Vec::new())).into();
     for viscosity in VISCOSITY_LAWS {
         laws.push(law(format!("viscosity {}", viscosity.name), vec![reference]));
         laws.push(law(format!("kinetic-energy {}", viscosity.name), Vec::new()));

@@ -3,6 +3,8 @@
 use super::super::chart::Chart;
 use super::super::format::{shown_unit, span, with_unit};
 use crate::diagnose::{Sample, SampleRow};
+use crate::rig::name_of;
+use nearwall::group::GROUPS;
 use nearwall::impact::INPUTS;
 
 /// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
@@ -103,10 +105,16 @@ impl<'a> ColumnAxis<'a> {
         }
     }
 
-    /// The name of the column; of an input with its meaning.
+    /// The name of the column; of an input, a group or a number of a case with its meaning.
     fn words(&self) -> String {
-        let input = INPUTS.iter().find(|input| input.name == self.name);
-        input.map_or_else(|| self.name.to_owned(), |input| format!("{}, {}", input.words(), self.name))
+        let input = INPUTS.iter().find(|input| input.name == self.name).map(|input| input.words().to_owned());
+        let group = || GROUPS.iter().find(|group| group.name == self.name);
+        // What follows a comma or a colon is an explanation.
+        let group = || Some(group()?.words.split([',', ':']).next()?.to_owned());
+        let is_of_case = ["gas.", "particles.", "walls."].iter().any(|table| self.name.starts_with(table));
+        let number = || is_of_case.then(|| name_of(self.name));
+        let words = input.or_else(group).or_else(number);
+        words.map_or_else(|| self.name.to_owned(), |words| format!("{words}, {}", self.name))
     }
 
     /// An empty chart over this column.
