@@ -59,7 +59,7 @@ fn captures(result: &BenchmarkResult) -> Option<Table> {
         ("worst set", &|entry| worst(entry)),
         ("fitted numbers", &|entry| fitted(entry)),
     ];
-    let caption = "Laws of capture by a melt, the worst first, each on the captures of the sets that have what it needs";
+    let caption = "Laws of capture by a melt, the worst first: captures in which a melt may matter, of sets that have what the law needs";
     (!entries.is_empty()).then(|| Table::of_items(caption, 1, &entries, &columns))
 }
 

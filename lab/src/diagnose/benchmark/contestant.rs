@@ -14,6 +14,9 @@ use super::{BenchmarkError, EntryKind};
 use crate::diagnose::fault;
 use crate::rig::Band;
 
+/// Captured shares that differ by less are the same [1].
+const SAME_SHARE: f64 = 1e-9;
+
 /// The answers of a law with certain numbers to every set.
 pub(super) struct Trial {
     /// The fitted numbers.
@@ -95,6 +98,14 @@ impl Contestant {
         };
         let of_set = |(place, set): (usize, &ReadSet)| (0..set.count()).map(|row| band(place, row)).collect();
         Ok(Self { bands: Some(sets.iter().enumerate().map(of_set).collect()), ..self })
+    }
+
+    /// Whether it captures another share of a reading than `other`, with some of its numbers.
+    pub fn captures_otherwise(&self, other: &Self, set: usize, row: usize) -> bool {
+        let capture = |trial: &Trial| mean(trial.forecasts[set].of(row), &Offset::default()).capture;
+        let is_other =
+            |of: &Trial| other.trials.iter().any(|one| (capture(one) - capture(of)).abs() > SAME_SHARE);
+        self.decided[set][row] && other.decided[set][row] && self.trials.iter().any(is_other)
     }
 
     /// Another program, which answers all readings in one run.

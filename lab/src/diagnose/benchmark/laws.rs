@@ -2,6 +2,7 @@
 
 use nearwall::law::{Parameter, Search};
 use nearwall::slag::VISCOSITY_LAWS;
+use nearwall::slag::urbain::KALMANOVITCH_FRANK;
 use nearwall::{normal, tangential};
 use toml_edit::{DocumentMut, Item, Table, TomlError, value};
 
@@ -72,7 +73,8 @@ pub(super) fn adhesion_alone() -> NamedLaw {
     NamedLaw { side: Side::Capture, name: "none".to_owned(), numbers: Vec::new() }
 }
 
-/// Every law of capture by a melt; those of viscosity with each law of it.
+/// Every law of capture by a melt; the constant limit of viscosity with each law of viscosity, the others that need one
+/// with Kalmanovitch and Frank's.
 pub(super) fn capture_laws() -> Vec<NamedLaw> {
     let law = |name: String, numbers: Vec<_>| NamedLaw { side: Side::Capture, name, numbers };
     // The literature has 8 to 1e7 Pa s.
@@ -81,9 +83,11 @@ pub(super) fn capture_laws() -> Vec<NamedLaw> {
         ["fusion", "melt-fraction"].map(|name| law(name.to_owned(), Vec::new())).into();
     for viscosity in VISCOSITY_LAWS {
         laws.push(law(format!("viscosity {}", viscosity.name), vec![reference]));
-        laws.push(law(format!("kinetic-energy {}", viscosity.name), Vec::new()));
-        laws.push(law(format!("droplet {}", viscosity.name), Vec::new()));
     }
+    laws.extend(
+        ["kinetic-energy", "droplet"]
+            .map(|name| law(format!("{name} {}", KALMANOVITCH_FRANK.name), Vec::new())),
+    );
     laws
 }
 
@@ -182,6 +186,19 @@ mod tests {
                 assert_eq!(names[law.side as usize], law.name);
                 assert!(model.terms().is_empty() && text.contains("work_of_adhesion = 0.2"), "{text}");
             }
+        }
+    }
+
+    /// The captures of a melt are told by a material that has what every law asks for.
+    #[test]
+    fn every_law_of_capture_is_a_model_of_a_fitting_material() {
+        let melt = "[materials.melt]\nlike = \"coal-slag\"\nmelt_fraction = 0.5\n";
+        let base = BASE.replace("montan-wax", "melt") + melt;
+        for law in capture_laws() {
+            let trials = law.trials();
+            let text = law.model_text(&base, &trials[0]).unwrap();
+            assert!(text.contains("[capture]"), "{text}");
+            Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         }
     }
 

@@ -143,12 +143,16 @@ impl Benchmark {
         common
     }
 
-    /// Each law of capture by a melt on the captures that it decides, beside adhesion alone.
+    /// Each law of capture by a melt, beside adhesion alone, on the captures that it decides and of which any of these
+    /// laws says something else than adhesion does.
     fn capture_entries(&self) -> Vec<BenchmarkEntry> {
         let Some((alone, laws)) = self.captures.split_first() else { return Vec::new() };
         let entry = |one: &Contestant| {
-            let is_capture = |set: usize, row: usize| self.sets[set].observables[row] == Observable::Capture;
-            let common = self.common(|set, row| one.decided[set][row] && is_capture(set, row));
+            let is_of_melt = |set: usize, row: usize| {
+                self.sets[set].observables[row] == Observable::Capture
+                    && laws.iter().any(|law| law.captures_otherwise(alone, set, row))
+            };
+            let common = self.common(|set, row| one.decided[set][row] && is_of_melt(set, row));
             let level = common.level();
             let of = |one: &Contestant| {
                 common.entry(&one.name, one.kind, &common.scored(one, &level), &level, &self.sources)
