@@ -365,6 +365,7 @@ surface_energy = { value = 0.1, source = "a table" }
             && (soft["high"].as_f64().unwrap() - 1e7).abs() < 1.0
     );
     assert_eq!(soft["quality"], "stated");
+    assert_eq!([&soft["name"], &soft["unit"], &soft["scale"]], ["yield strength of soft", "Pa", "value"]);
     assert_eq!(number("model.materials.hard.density")["high"], 2600.0);
     assert_eq!(number("model.materials.hard.surface_energy")["quality"], "assumed");
     assert_eq!(number("model.materials.hard.surface_energy")["high"], 1.0);
@@ -373,6 +374,10 @@ surface_energy = { value = 0.1, source = "a table" }
     assert!(wall["captured_low"].as_f64() > wall["captured_high"].as_f64(), "{wall}");
     let table = std::fs::read_to_string(path.join("out/sensitivity.csv")).unwrap();
     assert_eq!(rows(&table).len(), numbers.len());
-    assert!(path.join("out/report.html").exists());
+    // The tornado names each number with its range, the largest change first.
+    let page = std::fs::read_to_string(path.join("out/report.html")).unwrap();
+    let names: Vec<&str> = page.split("<text ").filter(|text| text.contains(" to ")).collect();
+    assert!(names[0].contains(">yield strength of soft: 100000 to 1e7 Pa<"), "{}", names[0]);
+    assert!(!names.iter().any(|name| name.contains("yield strength of hard")), "{names:?}");
     refused(path, &["sensitivity", "case.toml", "--set", "gas.none.x=3"], &["gas.none.x"]);
 }

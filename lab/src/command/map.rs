@@ -40,11 +40,11 @@ pub struct Arguments {
 fn after_help() -> String {
     let inputs: Vec<String> = INPUTS.iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
     format!(
-        "Example:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700 --set v_n=5 -o map\n  \
+        "Examples:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700\n  \
          nearwall map nearWall.toml --x v_n=0.1:30 --y d=1e-6:1e-3 --slider T_p=900:1700:9\n\n\
          Writes map.html and map.csv into the folder. The inputs are\n{}.\n\
-         An axis has {DEFAULT_POINTS} points, a slider {SLIDER_POINTS}, evenly spaced in the logarithm from a ratio of 30 of both\n\
-         ends on. docs/map.md describes the numbers.",
+         An axis has {DEFAULT_POINTS} points, a slider {SLIDER_POINTS}, evenly spaced in the logarithm from a ratio of\n\
+         30 of both ends on. docs/map.md describes the numbers.",
         inputs.join(", ")
     )
 }

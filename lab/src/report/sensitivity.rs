@@ -18,8 +18,9 @@ const LEAST_SHOWN: f64 = 0.01;
 pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
     let mut page = Page::new(&format!("{}: which numbers matter", found.title));
     page.lead(
-        "Each number was moved to the low and to the high end of its range, one at a time and with the same random numbers. \
-         A bar shows how far that changes what a wall captures; the table ranks all numbers by their largest change at any wall.",
+        "Each number was moved to the low and to the high end of its range, one at a time and with the same random \
+         numbers. A bar shows how far that changes what a wall captures; the table ranks all numbers by their largest \
+         change at any wall.",
     );
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
     page.figures((0..walls.len()).filter_map(|wall| figure(found, wall)));

@@ -72,6 +72,8 @@ pub struct Chart {
     words: Vec<String>,
     lines: Vec<ReferenceLine>,
     panel: bool,
+    /// Gaps of the next line, if not those of its place.
+    dash: Option<usize>,
     /// Shown numbers of the x axis over those of the data.
     x_factor: Option<f64>,
 }
@@ -138,6 +140,13 @@ impl Chart {
         self
     }
 
+    /// The same with the gaps of this place for a line, so that lines of one colour differ.
+    #[must_use]
+    pub fn dashed(mut self, colour: usize, dash: usize) -> Self {
+        self.dash = Some(dash);
+        self.coloured(colour)
+    }
+
     /// Shows the numbers along the x axis in a unit of which a shown number is this many SI ones.
     #[must_use]
     pub fn x_factor(mut self, factor: f64) -> Self {
@@ -188,7 +197,8 @@ impl Chart {
     #[must_use]
     pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
         let (colour, place) = self.next();
-        let dashes = Some(DASHES[place % DASHES.len()].to_owned()).filter(|dashes| !dashes.is_empty());
+        let dash = self.dash.take().unwrap_or(place);
+        let dashes = Some(DASHES[dash % DASHES.len()].to_owned()).filter(|dashes| !dashes.is_empty());
         let style = dashes.clone().map_or(LineStyle::Solid, LineStyle::Custom);
         let entry = legend_entry(name, colour, LegendShape::Line);
         self.legend.extend(entry.map(|entry| LegendEntry { dasharray: dashes, ..entry }));

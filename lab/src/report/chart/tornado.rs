@@ -18,7 +18,7 @@ const ROW: f64 = 36.0;
 const BAR: f64 = 7.0;
 const AXIS: f64 = 48.0;
 
-/// A quantity: its name with its range, and what the result becomes at the low and the high end, with each end in words.
+/// A quantity: its name with its range, and what the result becomes at the low and the high end, with each in words.
 pub(in crate::report) struct TornadoRow {
     pub name: String,
     pub results: [f64; 2],
@@ -38,7 +38,7 @@ pub(in crate::report) fn tornado(
     let all = rows.iter().flat_map(|row| row.results).chain([middle]);
     let [low, high] =
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
-    if rows.is_empty() || !(low < high) {
+    if low >= high {
         return None;
     }
     let edges = round_edges(low, high, 6);
@@ -51,22 +51,25 @@ pub(in crate::report) fn tornado(
     for (place, row) in rows.iter().enumerate() {
         svg += &bars(row, HEAD + ROW * place as f64, at(middle), &at);
     }
-    let anchor = if x > 0.7 * WIDTH {
-        "end"
-    } else if x < 0.3 * WIDTH {
-        "start"
-    } else {
-        "middle"
+    let anchor = match x / WIDTH {
+        share if share > 0.7 => "end",
+        share if share < 0.3 => "start",
+        _ => "middle",
     };
     svg += &text_at([x, HEAD - 5.0], anchor, &format!("as it is: {}", number(middle)));
-    let svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {:.1}\" role=\"img\" aria-label=\"{}\" \
-         font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" font-size=\"11\" fill=\"black\">{svg}</svg>",
-        bottom + AXIS,
-        escaped(title)
-    );
+    let svg = drawing(title, bottom + AXIS, &svg);
     let [id, title, caption] = [id, title, caption].map(str::to_owned);
     Some(Figure { id, title, caption, svg })
+}
+
+/// The drawing of a height [px].
+fn drawing(title: &str, height: f64, body: &str) -> String {
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {height:.1}\" role=\"img\" aria-label=\"{}\" \
+         font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" font-size=\"11\" \
+         fill=\"black\">{body}</svg>",
+        escaped(title)
+    )
 }
 
 /// What both colours mean.

@@ -26,25 +26,7 @@ pub fn page(map: &MapSeries, file: &str) -> Result<String, askama::Error> {
     for note in notes(map) {
         page.text(note);
     }
-    let scales = [0, 1].map(|which| restitution_scale(map, which));
-    let figures = |place: usize, map: &Map| {
-        let ids = ["regime", "p-stick", "e-n", "e-t"].map(|id| format!("{id}-{place}"));
-        let [regime, p_stick, e_n, e_t] = &ids;
-        let rebound = |which: usize, id: &str| restitution(map, which, id, &scales[which]);
-        vec![regimes(map, regime), capture(map, p_stick), rebound(0, e_n), rebound(1, e_t)]
-    };
-    match &map.third {
-        None => page.figures(map.maps.first().into_iter().flat_map(|map| figures(0, map))),
-        Some(third) => {
-            let heading = |value: Option<f64>| {
-                let (name, unit) = (panel::name(third), third.input().unit);
-                value.map_or(String::new(), |value| format!("{name} = {}", with_unit(value, unit)))
-            };
-            let steps = map.by_value().enumerate();
-            let steps = steps.map(|(place, (value, map))| (heading(value), figures(place, map)));
-            page.steps(steps.collect());
-        }
-    }
+    add_figures(&mut page, map);
     let row = |(input, value): (&nearwall::impact::Input, f64)| {
         vec![input.name.to_owned(), with_unit(value, input.unit), input.about.replace('`', "")]
     };
@@ -62,6 +44,26 @@ pub fn page(map: &MapSeries, file: &str) -> Result<String, askama::Error> {
     );
     page.foot(&format!("Made from {file}. The numbers are in map.csv."));
     page.html()
+}
+
+/// Four pictures of a map, or of each map of a series.
+fn add_figures(page: &mut Page, map: &MapSeries) {
+    let scales = [0, 1].map(|which| restitution_scale(map, which));
+    let figures = |place: usize, map: &Map| {
+        let ids = ["regime", "p-stick", "e-n", "e-t"].map(|id| format!("{id}-{place}"));
+        let [regime, p_stick, e_n, e_t] = &ids;
+        let rebound = |which: usize, id: &str| restitution(map, which, id, &scales[which]);
+        vec![regimes(map, regime), capture(map, p_stick), rebound(0, e_n), rebound(1, e_t)]
+    };
+    let Some(third) = &map.third else {
+        return page.figures(map.maps.first().into_iter().flat_map(|map| figures(0, map)));
+    };
+    let heading = |value: Option<f64>| {
+        let (name, unit) = (panel::name(third), third.input().unit);
+        value.map_or(String::new(), |value| format!("{name} = {}", with_unit(value, unit)))
+    };
+    let steps = map.by_value().enumerate();
+    page.steps(steps.map(|(place, (value, map))| (heading(value), figures(place, map))).collect());
 }
 
 /// An axis in words: name and range.

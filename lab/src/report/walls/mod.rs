@@ -323,6 +323,12 @@ impl<'a> RunComparison<'a> {
         self.labels.iter().zip(self.runs)
     }
 
+    /// The place of the colour of a wall of a single run, or of one of several runs.
+    fn colour(&self, label: &str, wall: &str) -> usize {
+        let (names, own) = if self.is_single() { (&self.walls, wall) } else { (&self.labels, label) };
+        names.iter().position(|name| name == own).unwrap_or(0)
+    }
+
     fn totals(&self, run: &'a RunResults, wall: &str) -> Option<&'a WallTotals> {
         run.totals(wall, self.time)
     }
