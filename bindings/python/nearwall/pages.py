@@ -198,7 +198,7 @@ class Map(Page):
             place = len(third[0]) // 2 if at is None else int(numpy.argmin(abs(third[0] - at)))
             grid = grid[place]
             ax.set_title(f"{self.axes[2]} = {third[0][place]:g} {UNITS[self.axes[2]]}")
-        colours = ax.pcolormesh(columns, rows, grid, shading="nearest", vmin=0, vmax=1)
+        colours = ax.pcolormesh(columns, rows, grid, shading="nearest", cmap="cividis", vmin=0, vmax=1)
         ax.figure.colorbar(colours, ax=ax, label=f"{quantity} [1]")
         for axis, values, scale, label in ((0, columns, ax.set_xscale, ax.set_xlabel), (1, rows, ax.set_yscale, ax.set_ylabel)):
             label(f"{self.axes[axis]} [{UNITS[self.axes[axis]]}]")

@@ -368,7 +368,8 @@ impl SensitivityCase {
     ) -> Result<NumberEffect, PredictionError> {
         // An end that is refused stays where the number is.
         let unmoved = || (number.how.apply(number.start(), 0.0, 0), base.clone());
-        let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights));
+        let sound = base.trouble.is_none();
+        let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights, sound));
         if let [Err(reason), Err(_)] = &ends {
             return Err(reason.clone());
         }
@@ -401,12 +402,14 @@ impl SensitivityCase {
         })
     }
 
-    /// The number at an end of its range and the captures there; nearer where the end is refused.
+    /// The number at an end of its range and the captures there; nearer where the end is refused, or some particles
+    /// cannot be used that could (`sound`) where the number is.
     fn moved(
         &self,
         number: &Number,
         side: f64,
         flights: Option<&Flights<'_>>,
+        sound: bool,
     ) -> Result<(f64, Captures), PredictionError> {
         let mut refused = PredictionError::NoParticle(String::new());
         for halvings in 0..RANGE_HALVINGS {
@@ -423,9 +426,10 @@ impl SensitivityCase {
                 None => run_captures(&case),
             });
             match captures {
-                Ok(captures) => {
-                    return Ok((number.how.apply(number.start(), side, halvings), captures));
+                Ok(Captures { trouble: Some(reason), .. }) if sound => {
+                    refused = PredictionError::NoParticle(reason)
                 }
+                Ok(captures) => return Ok((number.how.apply(number.start(), side, halvings), captures)),
                 Err(reason) => refused = reason,
             }
         }
