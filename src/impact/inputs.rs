@@ -67,6 +67,13 @@ pub struct Input {
     pub set: fn(&mut Impact, f64),
 }
 
+impl Input {
+    /// What it is in a few words, without unit and bounds.
+    pub fn words(&self) -> &'static str {
+        self.about.split(" [").next().unwrap_or(self.about)
+    }
+}
+
 /// The values that an input may have.
 #[derive(Debug, Clone, Copy)]
 pub struct Bounds {

@@ -76,6 +76,15 @@ pub fn kind_of(key: &str) -> Option<QuantityKind> {
     property.or((key == fusion::KEY).then_some(QuantityKind::Temperature))
 }
 
+/// The SI unit of a property by its key in files; of a composition per cent.
+pub fn unit_of(key: &str) -> Option<&'static str> {
+    match key {
+        "composition" => Some("%"),
+        fusion::KEY => Some("K"),
+        _ => PROPERTY_FIELDS.iter().find(|field| field.key == key).map(|field| field.limits.unit),
+    }
+}
+
 /// A solid that a particle or a wall is made of.
 #[derive(Debug, Clone)]
 pub struct Material {

@@ -47,7 +47,7 @@ pub use expectation::{DrawLattice, RotatedLattice};
 use general_wall::{Unwatched, Watcher};
 pub use particle::Particle;
 use prepared_wall::PreparedWall;
-pub use quantity::kind_of;
+pub use quantity::{kind_of, unit_of};
 pub use wall::Wall;
 use wall::WallPlace;
 pub use wall_heat::{WallCooling, WallHeat, WallHeatError};

@@ -1,4 +1,4 @@
-//! What kind of quantity each number of a model file is, as its definition says.
+//! What kind of quantity each number of a model file is and its unit, as its definition says.
 
 use crate::effect::EFFECTS;
 use crate::law::{Parameter, QuantityKind};
@@ -12,23 +12,35 @@ pub fn kind_of(path: &[&str]) -> Option<QuantityKind> {
     };
     match *path {
         ["materials", _, key, ..] => material::kind_of(key),
-        ["effects", id, key, ..] => {
-            parameter(EFFECTS.iter().filter(|info| info.id == id).map(|info| info.parameters), key)
-        }
-        ["normal", key, ..] => own(&normal::NORMAL_KINDS, key)
-            .or_else(|| parameter(normal::LISTED_LAWS.iter().map(|law| law.parameters), key)),
-        ["tangential", key, ..] => own(&tangential::TANGENTIAL_KINDS, key)
-            .or_else(|| parameter(tangential::LISTED_LAWS.iter().map(|law| law.parameters), key)),
+        ["normal", key, ..] => own(&normal::NORMAL_KINDS, key),
+        ["tangential", key, ..] => own(&tangential::TANGENTIAL_KINDS, key),
         ["capture", key, ..] => own(&capture::CAPTURE_KINDS, key),
         ["walls", _, "coverage"] => Some(QuantityKind::Share),
         _ => None,
     }
+    .or_else(|| parameter(path).map(|parameter| parameter.kind))
 }
 
-/// The kind of the parameter of this name.
-fn parameter(mut laws: impl Iterator<Item = &'static [Parameter]>, name: &str) -> Option<QuantityKind> {
-    laws.find_map(|parameters| parameters.iter().find(|parameter| parameter.name == name))
-        .map(|parameter| parameter.kind)
+/// The SI unit of the number at a place in a model file, "1" for one without a unit; `None` where no definition
+/// states one.
+pub fn unit_of(path: &[&str]) -> Option<&'static str> {
+    match *path {
+        ["materials", _, key, ..] => material::unit_of(key),
+        _ => parameter(path).map(|parameter| parameter.unit),
+    }
+}
+
+/// The parameter of a listed law or an effect at a place in a model file.
+fn parameter(path: &[&str]) -> Option<&'static Parameter> {
+    let (lists, name): (Vec<&'static [Parameter]>, &str) = match *path {
+        ["effects", id, key, ..] => {
+            (EFFECTS.iter().filter(|info| info.id == id).map(|info| info.parameters).collect(), key)
+        }
+        ["normal", key, ..] => (normal::LISTED_LAWS.iter().map(|law| law.parameters).collect(), key),
+        ["tangential", key, ..] => (tangential::LISTED_LAWS.iter().map(|law| law.parameters).collect(), key),
+        _ => return None,
+    };
+    lists.into_iter().flatten().find(|parameter| parameter.name == name)
 }
 
 #[cfg(test)]
@@ -47,6 +59,8 @@ mod tests {
         ] {
             assert_eq!(kind_of(&path), kind, "{path:?}");
         }
+        assert_eq!(unit_of(&["effects", "melting-transition", "width"]), Some("K"));
+        assert_eq!(unit_of(&["materials", "own", "density"]), Some("kg/m3"));
         assert_eq!(kind_of(&["normal", "e_n"]), Some(QuantityKind::Share));
         assert_eq!(kind_of(&["tangential", "friction"]), Some(QuantityKind::Share));
         assert_eq!(kind_of(&["capture", "contact_angle"]), Some(QuantityKind::Angle));

@@ -76,6 +76,31 @@ fn a_set_of_ones_own_is_scored() {
     refused(folder.path(), &["bench", "--data", "."], &["sub-folder", "data.csv, base.toml"]);
 }
 
+/// Two sources with an ash above its flow temperature, which sticks, and below its deformation temperature, which does
+/// not: only the hot ones are a matter of a melt, and the law of fusion is right about them.
+#[test]
+fn a_law_of_capture_is_scored_where_a_melt_may_matter() {
+    let folder = folder(&[]);
+    let ash = "[particle]\nmaterial = \"ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n\
+        [normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.5\n\
+        [materials.ash]\nlike = \"fly-ash\"\nfusion_temperatures = { deformation = 1300, softening = 1350, flow = 1400 }\n";
+    for source in ["one", "other"] {
+        let set = folder.path().join("sets").join(source);
+        std::fs::create_dir_all(&set).unwrap();
+        std::fs::write(set.join("base.toml"), ash).unwrap();
+        let rows = "5,1e-4,1500,1\n6,1e-4,1600,1\n5,1e-4,1000,0\n6,1e-4,1100,0\n";
+        std::fs::write(set.join("data.csv"), format!("v_n,d,T_p,capture_efficiency\n{rows}")).unwrap();
+    }
+    let fusion = |text: &str| -> Vec<f64> {
+        line(text, &["fusion"])[1..5].iter().map(|cell| cell.parse().unwrap()).collect()
+    };
+    let [without, with] =
+        [&["bench"][..], &["bench", "--data", "sets"]].map(|words| fusion(&done(folder.path(), words)));
+    // The cold impacts are no matter of a melt.
+    assert_eq!([with[2] - without[2], with[3] - without[3]], [4.0, 2.0], "{with:?} {without:?}");
+    assert!(with[0] > with[1] + 1.0, "beyond level with the law, and by adhesion alone: {with:?}");
+}
+
 /// The same numbers and bands from a model file with drawn ones and from another program score the same.
 #[test]
 fn a_model_and_a_program_with_the_same_numbers_are_equal() {

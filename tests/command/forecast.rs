@@ -328,7 +328,7 @@ yield_strength = { value = 1e10, source = "assumed: hard" }
 surface_energy = { value = 0.5, source = "assumed" }
 [materials.base]
 density = { value = 2000, source = "a table" }
-youngs_modulus = { value = 1e9, source = "a table" }
+youngs_modulus = { T = [290, 400], value = [1e9, 1e9], source = "a table" }
 poisson_ratio = { value = 0.3, source = "a table" }
 yield_strength = { value = 1e6, source = "assumed: uncertain by a factor 10" }
 surface_energy = { value = 0.2, source = "a table" }
@@ -356,6 +356,7 @@ surface_energy = { value = 0.1, source = "a table" }
         "gas.heat_capacity",
         "gas.conductivity",
         "gas.temperature",
+        "walls.plate.temperature",
     ] {
         assert_eq!(largest(key), 0.0, "{key}\n{printed}");
     }
@@ -366,14 +367,21 @@ surface_energy = { value = 0.1, source = "a table" }
             && (soft["high"].as_f64().unwrap() - 1e7).abs() < 1.0
     );
     assert_eq!(soft["quality"], "stated");
+    assert_eq!([&soft["name"], &soft["unit"], &soft["scale"]], ["yield strength of soft", "Pa", "value"]);
     assert_eq!(number("model.materials.hard.density")["high"], 2600.0);
     assert_eq!(number("model.materials.hard.surface_energy")["quality"], "assumed");
     assert_eq!(number("model.materials.hard.surface_energy")["high"], 1.0);
+    // The wall is known from 290 K: of 300 K less 50, 25, 12.5 and 6.25 K only the last can be decided.
+    assert_eq!(number("walls.plate.temperature")["low"], 293.75);
     // A softer wall holds more.
     let wall = &soft["walls"][0];
     assert!(wall["captured_low"].as_f64() > wall["captured_high"].as_f64(), "{wall}");
     let table = std::fs::read_to_string(path.join("out/sensitivity.csv")).unwrap();
     assert_eq!(rows(&table).len(), numbers.len());
-    assert!(path.join("out/report.html").exists());
+    // The tornado names each number with its range, the largest change first.
+    let page = std::fs::read_to_string(path.join("out/report.html")).unwrap();
+    let names: Vec<&str> = page.split("<text ").filter(|text| text.contains(" to ")).collect();
+    assert!(names[0].contains(">yield strength of soft: 100000 to 1e7 Pa<"), "{}", names[0]);
+    assert!(!names.iter().any(|name| name.contains("yield strength of hard")), "{names:?}");
     refused(path, &["sensitivity", "case.toml", "--set", "gas.none.x=3"], &["gas.none.x"]);
 }

@@ -134,6 +134,37 @@ fn marks_blanks_and_ranges_are_on_the_page() {
     }
 }
 
+/// Each part of a map over three inputs is the map of two with the third one set.
+#[test]
+fn a_slider_has_the_map_of_each_value() {
+    let folder = folder(&[("m.toml", ELASTIC)]);
+    let at = folder.path();
+    let axes = ["map", "m.toml", "--x", "v_n=0.01:10:4", "--y", "v_t=0:1:3"];
+    let printed = done(at, &[&axes[..], &["--slider", "d=1e-6:1e-4:3", "-o", "all"]].concat());
+    assert!(printed.contains("36 impacts on the wall default: v_n x v_t x d"), "{printed}");
+    let all = std::fs::read_to_string(at.join("all/map.csv")).unwrap();
+    assert!(all.starts_with("v_n,v_t,d,e_n,"), "{all}");
+    let html = std::fs::read_to_string(at.join("all/map.html")).unwrap();
+    assert!(html.contains("Particle diameter, d = 10 µm"), "the values stand over their figures");
+    assert_eq!(html.matches("<figure ").count(), 12);
+    for (place, size) in ["1e-6", "1e-5", "1e-4"].into_iter().enumerate() {
+        done(at, &[&axes[..], &["--set", &format!("d={size}")]].concat());
+        let (_, rows) = table(at);
+        for line in all.lines().skip(1 + 12 * place).take(12) {
+            let cells: Vec<&str> = line.split(',').collect();
+            let own = &rows[&key(cells[0], cells[1])];
+            // The middle of a logarithmic axis is 1e-5 but for the last digit.
+            let near = |a: &str, b: &str| match (a.parse::<f64>(), b.parse::<f64>()) {
+                (Ok(a), Ok(b)) => (a - b).abs() < 1e-12,
+                _ => a == b,
+            };
+            assert!(cells[3..].iter().zip(own).all(|(a, b)| near(a, b)), "{line} and {own:?}");
+        }
+    }
+    refused(at, &[&axes[..], &["--slider", "v_t=0:1"]].concat(), &["--slider v_t", "along an axis"]);
+    refused(at, &["map", "m.toml", "--slider", "d=1e-6:1e-4", "--set", "d=1"], &["--set d", "along an axis"]);
+}
+
 #[test]
 fn random_effects_are_averaged() {
     let part = "[[effects]]\nkind = \"agglomerates\"\nfraction = 0.25\nrestitution = 0.1\nspread = 0\n";

@@ -269,12 +269,14 @@ def pages():
          lambda: nearwall.compare(folder / "data.csv", [base, softer], columns=folder / "columns.toml")),
         (("map", model_file, "--x", "v_n=0.1:30:9", "--y", "T_p=1000:2000:7", "--set", "T_w=1200", "-o"),
          lambda: nearwall.map(model_file, ("v_n", 0.1, 30, 9), ("T_p", 1000, 2000, 7), fixed={"T_w": 1200})),
+        (("map", model_file, "--x", "v_n=0.1:30:9", "--y", "T_p=1000:2000:7", "--slider", "d=1e-5:1e-4:3", "-o"),
+         lambda: nearwall.map(model_file, ("v_n", 0.1, 30, 9), ("T_p", 1000, 2000, 7), slider=("d", 1e-5, 1e-4, 3))),
         (("sensitivity", case, "--particles", 20, "-o"), lambda: nearwall.sensitivity(case, particles=20)),
         (("diagnose", rig / "measured.csv", "--case", rig / "case.toml", "--out"),
          lambda: nearwall.diagnose(rig / "measured.csv", case=rig / "case.toml")),
     ]
     for arguments, call in calls:
-        name = arguments[0]
+        name = arguments[0] + ("-slider" if "--slider" in arguments else "")
         done = run(*arguments, f"commanded-{name}")
         assert done.returncode == 0, done.stderr
         found = call()
@@ -296,7 +298,20 @@ def pages():
     assert "nearwall-" not in ranked.html and len(ranked.plot("rmse_e_n").lines) > 0
     drawn = calls[1][1]()
     assert len(drawn.frame) == 63 and drawn.plot().collections
-    assert calls[2][1]().plot().patches
+    # The cube has the values of the frame at their places, and the units are those of the command.
+    series = calls[2][1]()
+    cube = series.to_xarray()
+    assert dict(cube.sizes) == {"d": 3, "T_p": 7, "v_n": 9}
+    for row in series.frame.sample(20, random_state=1).itertuples():
+        cell = cube.sel(v_n=row.v_n, T_p=row.T_p, d=row.d)
+        assert float(cell.p_stick) == row.p_stick and cell.regime.item() == row.regime
+    axes = series.plot(at=1e-5)
+    assert axes.get_title() == "d = 1e-05 m" and axes.get_xlabel() == "v_n [m/s]"
+    units = dict(re.findall(r"(\w+) \[([^\]]+)\][,.]", run("map", "--help").stdout))
+    assert units == nearwall.pages.UNITS, units
+    axes = calls[3][1]().plot()
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert axes.patches and any("of the particles" in name and " to " in name for name in names), names
 
     done = run("check", model_file)
     assert nearwall.check(model_file) == done.stdout.rstrip() and nearwall.check(model).split("\n")[1:] == done.stdout.rstrip().split("\n")[1:]

@@ -21,6 +21,10 @@ from .wheel import AnyPath, compiled, warn
 
 #: Name of an input, its least and largest value in SI units, and by choice the number of points.
 Axis = Union[Tuple[str, float, float], Tuple[str, float, float, int]]
+#: SI units of the inputs of an impact.
+UNITS = {"v_n": "m/s", "v_t": "m/s", "omega": "rad/s", "d": "m", "T_p": "K", "rho_p": "kg/m3", "conversion": "1", "T_w": "K",
+         "T_under": "K", "roughness": "m", "coverage": "1", "layer_thickness": "m", "film_thickness": "m",
+         "melt_thickness": "m", "v_gas": "m/s"}
 
 
 @dataclass(frozen=True, repr=False)
@@ -157,36 +161,61 @@ def compare(table: Table, models: Sequence[Union[Model, AnyPath]], *, columns: O
 
 @dataclass(frozen=True, repr=False)
 class Map(Page):
-    """What a model decides over two inputs: `frame` has a row for each pair of their values, with e_n, e_t, p_stick and
-    regime; `axes` are the names of the inputs."""
+    """What a model decides over two inputs, or three with a slider: `frame` has a row for each choice of their values, with
+    e_n, e_t, p_stick and regime; `axes` are the names of the inputs."""
 
     frame: Frame
-    axes: Tuple[str, str]
+    axes: Tuple[str, ...]
 
-    def plot(self, quantity: str = "p_stick", ax: Any = None) -> Any:
-        """Draws "e_n", "e_t" or "p_stick" in colours over both inputs."""
+    def _grid(self, quantity: str) -> Tuple[List[Any], Any]:
+        """The values of the inputs, and the quantity over them: y, x and, with a slider, first its input."""
+        values = [numpy.asarray(self.frame[name], float) for name in self.axes]
+        own = [numpy.unique(one) for one in values]
+        cells = numpy.asarray(self.frame[quantity])
+        shape = tuple(one.size for one in reversed(own))
+        if cells.dtype.kind in "fiu":
+            grid = numpy.full(shape, numpy.nan)
+        else:
+            grid = numpy.full(shape, None, dtype=object)
+        grid[tuple(numpy.searchsorted(one, of) for one, of in zip(reversed(own), reversed(values)))] = cells
+        return own, grid
+
+    def to_xarray(self) -> Any:
+        """An xarray.Dataset with e_n, e_t, p_stick and regime over the inputs, as in `map.to_xarray().p_stick.sel(T_p=1200)`."""
+        import xarray
+        quantities = ("e_n", "e_t", "p_stick", "regime")
+        grids = {quantity: self._grid(quantity) for quantity in quantities}
+        names = tuple(reversed(self.axes))
+        return xarray.Dataset({quantity: (names, grid) for quantity, (_, grid) in grids.items()},
+                              coords=dict(zip(self.axes, grids["p_stick"][0])))
+
+    def plot(self, quantity: str = "p_stick", ax: Any = None, at: Optional[float] = None) -> Any:
+        """Draws "e_n", "e_t" or "p_stick" in colours over x and y; at: the value of the slider, of which the nearest is
+        taken, by default the middle one."""
         ax = ax or axes()
-        x, y, z = (numpy.asarray(self.frame[name], float) for name in (*self.axes, quantity))
-        columns, rows = numpy.unique(x), numpy.unique(y)
-        grid = numpy.full((rows.size, columns.size), numpy.nan)
-        grid[numpy.searchsorted(rows, y), numpy.searchsorted(columns, x)] = z
-        colours = ax.pcolormesh(columns, rows, grid, shading="nearest", vmin=0, vmax=1)
+        (columns, rows, *third), grid = self._grid(quantity)
+        if third:
+            place = len(third[0]) // 2 if at is None else int(numpy.argmin(abs(third[0] - at)))
+            grid = grid[place]
+            ax.set_title(f"{self.axes[2]} = {third[0][place]:g} {UNITS[self.axes[2]]}")
+        colours = ax.pcolormesh(columns, rows, grid, shading="nearest", cmap="cividis", vmin=0, vmax=1)
         ax.figure.colorbar(colours, ax=ax, label=f"{quantity} [1]")
         for axis, values, scale, label in ((0, columns, ax.set_xscale, ax.set_xlabel), (1, rows, ax.set_yscale, ax.set_ylabel)):
-            label(self.axes[axis])
+            label(f"{self.axes[axis]} [{UNITS[self.axes[axis]]}]")
             if values[0] > 0 and values[-1] / values[0] >= 30:
                 scale("log")
         return ax
 
     def __repr__(self) -> str:
-        return f"<nearwall.Map over {self.axes[0]} and {self.axes[1]}>"
+        return f"<nearwall.Map over {' and '.join(self.axes)}>"
 
 
-def map(model: Union[Model, AnyPath], x: Optional[Axis] = None, y: Optional[Axis] = None, *,
+def map(model: Union[Model, AnyPath], x: Optional[Axis] = None, y: Optional[Axis] = None, *, slider: Optional[Axis] = None,
         fixed: Optional[Mapping[str, float]] = None, wall: Optional[str] = None, kind: Optional[str] = None) -> Map:
-    """Decides impacts over two inputs while the others are fixed, as `nearwall map`.
+    """Decides impacts over two or three inputs while the others are fixed, as `nearwall map`.
 
     x, y: input with its least and largest value in SI units and, by choice, the number of points, as ("v_n", 0.1, 30).
+    slider: a third input in the same form; the page has a slider over its values, 7 unless given.
     fixed: values of other inputs, as {"T_p": 1700}.
     """
     def word(axis: Optional[Axis]) -> Optional[str]:
@@ -198,10 +227,10 @@ def map(model: Union[Model, AnyPath], x: Optional[Axis] = None, y: Optional[Axis
         run = Run(folder)
         settings = [part for name, value in (fixed or {}).items() for part in ("--set", f"{name}={float(value)!r}")]
         run.command("map", run.model(model), "-o", run.out, *settings,
-                    *options(x=word(x), y=word(y), wall=wall))
+                    *options(x=word(x), y=word(y), slider=word(slider), wall=wall))
         texts = run.texts()
-        first, second = texts["map.csv"].split("\n", 1)[0].split(",")[:2]
-        return Map(texts["map.html"], texts, run.frame("map.csv", kind), (first, second))
+        names = texts["map.csv"].split("\n", 1)[0].split(",")
+        return Map(texts["map.html"], texts, run.frame("map.csv", kind), tuple(names[:names.index("e_n")]))
 
 
 @dataclass(frozen=True, repr=False)
@@ -215,20 +244,30 @@ class Sensitivity(Page):
     def plot(self, wall: Optional[str] = None, most: int = 12, ax: Any = None) -> Any:
         """Draws the captured share of a wall, by default the first, at both ends of the range of each number."""
         ax = ax or axes()
-        numbers = [number for number in self.record["numbers"] if number["largest"] > 0][:most]
-        for place, number in enumerate(numbers):
-            one = next(one for one in number["walls"] if wall in (None, one["wall"]))
-            for end, colour in (("captured_low", "C0"), ("captured_high", "C1")):
-                ax.barh(place, one[end] - one["captured"], left=one["captured"], color=colour,
-                        label={"captured_low": "low end", "captured_high": "high end"}[end] if place == 0 else None)
-        ax.set_yticks(range(len(numbers)), [number["key"] for number in numbers])
+        pairs = [(number, next(one for one in number["walls"] if wall in (None, one["wall"]))) for number in self.record["numbers"]]
+        pairs = sorted((pair for pair in pairs if pair[1]["change"] > 0), key=lambda pair: -float(pair[1]["change"]))[:most]
+        for place, (_, one) in enumerate(pairs):
+            for end, colour, shift in (("low", "#0072B2", -0.2), ("high", "#D55E00", 0.2)):
+                ax.barh(place + shift, one[f"captured_{end}"] - one["captured"], 0.4, left=one["captured"], color=colour,
+                        label=f"{end} end of the range" if place == 0 else None)
+            ax.axvline(one["captured"], color="0.3", linestyle="--", linewidth=0.8)
+        ax.set_yticks(range(len(pairs)), [f"{number['name']}\n{ends(number)}" for number, _ in pairs])
         ax.invert_yaxis()
-        ax.set_xlabel("captured share of the injected mass [1]")
+        ax.set_xlabel(f"captured at {pairs[0][1]['wall']}, share of the injected mass [1]" if pairs else "captured share [1]")
         ax.legend()
         return ax
 
     def __repr__(self) -> str:
         return f"<nearwall.Sensitivity of {len(self.record['numbers'])} numbers>"
+
+
+def ends(number: Mapping[str, Any]) -> str:
+    """The range of a number of `Sensitivity` in words, small lengths in µm."""
+    micro = number["unit"] == "m" and abs(number["high"]) <= 2e-3 and number["scale"] == "value"
+    low, high = (1e6 * number[end] if micro else number[end] for end in ("low", "high"))
+    unit = "µm" if micro else {"1": "", "J/m2": "J/m²", "kg/m3": "kg/m³"}.get(number["unit"], number["unit"])
+    return {"value": f"{low:.4g} to {high:.4g} {unit}".rstrip(), "factor": f"× {low:.3g} to {high:.3g}",
+            "difference": f"{low:+.4g} to {high:+.4g} {unit}"}[number["scale"]]
 
 
 def sensitivity(case: AnyPath, *, settings: Optional[Mapping[str, Any]] = None, particles: int = 1000,

@@ -47,7 +47,8 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let named = arguments.model.as_deref();
     let is_file = |name: &str| Path::new(name).is_file() || name.ends_with(".toml");
     let (file, law) = (named.filter(|name| is_file(name)), named.filter(|name| !is_file(name)));
-    if let Some(law) = law.filter(|law| !names.contains(law)) {
+    if let Some(law) = law.filter(|law| !names.iter().any(|name| name == law)) {
+        let names: Vec<&str> = names.iter().map(String::as_str).collect();
         return Err(format!("{}; or give a model file", unknown(law, "law", &names)).into());
     }
     let file = file.map(|path| Document::from_file(path.as_ref())).transpose()?;

@@ -1,17 +1,17 @@
-//! `nearwall map`: what a model decides over any two inputs of an impact.
+//! `nearwall map`: what a model decides over any two or three inputs of an impact.
 
 use std::path::PathBuf;
 
 use crate::atomic_file::write_texts;
 use crate::dataset::WallChoice;
-use crate::map::{Cell, DEFAULT_POINTS, InputAxis, Map, Setting, default_axes};
+use crate::map::{Cell, DEFAULT_POINTS, InputAxis, MapSeries, SLIDER_POINTS, Setting, default_axes};
 use crate::report::map_page;
 use nearwall::Model;
 use nearwall::impact::{INPUTS, Impact};
 
 use super::CommandResult;
 
-/// Draws e_n, e_t, sticking probability and regime over any two inputs
+/// Draws e_n, e_t, sticking probability and regime over any two inputs, and a third one by a slider
 #[derive(clap::Args)]
 #[command(after_help = after_help())]
 pub struct Arguments {
@@ -23,6 +23,9 @@ pub struct Arguments {
     /// The input along the y axis; by default the first of T_w, d, T_p, conversion, v_t that changes the outcome
     #[arg(long, value_name = "INPUT=LOW:HIGH[:N]")]
     y: Option<InputAxis>,
+    /// A third input: the page has a slider over its values
+    #[arg(long, value_name = "INPUT=LOW:HIGH[:N]", value_parser = InputAxis::slider)]
+    slider: Option<InputAxis>,
     /// Value of another input; may be given several times
     #[arg(long, value_name = "INPUT=VALUE")]
     set: Vec<Setting>,
@@ -37,10 +40,11 @@ pub struct Arguments {
 fn after_help() -> String {
     let inputs: Vec<String> = INPUTS.iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
     format!(
-        "Example:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700 --set v_n=5 -o map\n\n\
+        "Examples:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700\n  \
+         nearwall map nearWall.toml --x v_n=0.1:30 --y d=1e-6:1e-3 --slider T_p=900:1700:9\n\n\
          Writes map.html and map.csv into the folder. The inputs are\n{}.\n\
-         An axis has {DEFAULT_POINTS} points, evenly spaced in the logarithm from a ratio of 30 of both ends on.\n\
-         docs/how-to/map.md describes the numbers.",
+         An axis has {DEFAULT_POINTS} points, a slider {SLIDER_POINTS}, evenly spaced in the logarithm from a ratio of\n\
+         30 of both ends on. docs/how-to/map.md describes the numbers.",
         inputs.join(", ")
     )
 }
@@ -51,10 +55,10 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     walls.check(false)?;
     let wall = walls.of(None)?;
     let fixed = fixed_inputs(arguments)?;
-    let axes = default_axes(&model, wall, &fixed, [arguments.x, arguments.y], DEFAULT_POINTS);
+    let axes = default_axes(&model, wall, &fixed, given_axes(arguments), DEFAULT_POINTS);
     let axes = axes.ok_or("no default range for the axes; give --x and --y")?;
-    let map = Map::new(&model, wall, axes, fixed);
-    if let Some(reason) = map.first_refusal.as_ref().filter(|_| map.undecided() == map.cells.len()) {
+    let map = MapSeries::new(&model, wall, axes, arguments.slider, fixed);
+    if let Some(reason) = map.first_refusal().filter(|_| map.undecided() == map.count()) {
         return Err(
             format!("{}: no impact of this map can be decided: {reason}", arguments.model.display()).into()
         );
@@ -63,14 +67,22 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     super::print_page(&summary(&map), &arguments.output.join("map.html"))
 }
 
+/// The inputs along x and y and of the slider.
+fn given_axes(arguments: &Arguments) -> [Option<InputAxis>; 3] {
+    [arguments.x, arguments.y, arguments.slider]
+}
+
 /// The inputs that are the same in all impacts.
 fn fixed_inputs(arguments: &Arguments) -> CommandResult<Impact> {
     let mut fixed = Impact { normal_speed: 1.0, ..Impact::default() };
-    let axes: Vec<&str> = [arguments.x, arguments.y].iter().flatten().map(|axis| axis.input().name).collect();
-    if let [x, y] = axes[..]
-        && x == y
-    {
+    let axes: Vec<&str> = given_axes(arguments).iter().flatten().map(|axis| axis.input().name).collect();
+    let name = |axis: Option<InputAxis>| axis.map(|axis| axis.input().name);
+    let [x, y, third] = given_axes(arguments).map(name);
+    if let Some(y) = y.filter(|_| y == x) {
         return Err(format!("--y {y}: the input is already along x").into());
+    }
+    if let Some(third) = third.filter(|_| third == x || third == y) {
+        return Err(format!("--slider {third}: the input is already along an axis").into());
     }
     for (place, setting) in arguments.set.iter().enumerate() {
         let name = setting.input().name;
@@ -86,20 +98,24 @@ fn fixed_inputs(arguments: &Arguments) -> CommandResult<Impact> {
 }
 
 /// Writes both files, or none.
-fn write(arguments: &Arguments, map: &Map) -> CommandResult {
+fn write(arguments: &Arguments, map: &MapSeries) -> CommandResult {
     let Arguments { model, output, .. } = arguments;
     let page = map_page(map, &model.display().to_string())?;
     Ok(write_texts(output, &[model], [("map.csv", table(map)?), ("map.html", page)])?)
 }
 
 /// One row for each impact; blank where nothing is decided, and `e_n`, `e_t` where no particle rebounds.
-fn table(map: &Map) -> CommandResult<String> {
+fn table(map: &MapSeries) -> CommandResult<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let [x, y] = [map.x.input().name, map.y.input().name];
-    writer.write_record([x, y, "e_n", "e_t", "p_stick", "regime", "outside_range", "matters"])?;
-    for ([x, y], cell) in map.places().zip(&map.cells) {
-        let decided = cell.map_or_else(Default::default, |cell| texts(&cell));
-        writer.write_record([x.to_string(), y.to_string()].iter().chain(&decided))?;
+    let inputs = map.axes().into_iter().map(|axis| axis.input().name);
+    let outcomes = ["e_n", "e_t", "p_stick", "regime", "outside_range", "matters"];
+    writer.write_record(inputs.chain(outcomes))?;
+    for (value, map) in map.by_value() {
+        for (place, cell) in map.places().zip(&map.cells) {
+            let decided = cell.map_or_else(Default::default, |cell| texts(&cell));
+            let inputs = place.into_iter().chain(value).map(|input| input.to_string());
+            writer.write_record(inputs.chain(decided))?;
+        }
     }
     Ok(String::from_utf8(writer.into_inner()?)?)
 }
@@ -118,22 +134,18 @@ fn texts(cell: &Cell) -> [String; 6] {
     ]
 }
 
-fn summary(map: &Map) -> String {
-    let all = map.cells.len();
-    let mut text = format!(
-        "{} impacts on the wall {}: {} x {}\n",
-        all,
-        map.wall,
-        map.x.input().name,
-        map.y.input().name
-    );
-    if let Some(reason) = &map.first_refusal {
+fn summary(map: &MapSeries) -> String {
+    let all = map.count();
+    let wall = map.maps.first().map_or("", |map| &map.wall);
+    let inputs: Vec<&str> = map.axes().iter().map(|axis| axis.input().name).collect();
+    let mut text = format!("{all} impacts on the wall {wall}: {}\n", inputs.join(" x "));
+    if let Some(reason) = map.first_refusal() {
         text += &format!(
             "{} of {all} could not be decided and are blank; the first: {reason}\n",
             map.undecided()
         );
     }
-    for line in map.ranges.lines("impacts") {
+    for line in map.ranges().lines("impacts") {
         text += &format!("{line}\n");
     }
     text

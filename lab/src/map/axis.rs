@@ -8,6 +8,8 @@ use nearwall::model::Model;
 
 /// Points of an axis where the user gives no number.
 pub const DEFAULT_POINTS: usize = 61;
+/// Values of the third input of a series where the user gives no number.
+pub const SLIDER_POINTS: usize = 7;
 /// Largest number of points of an axis.
 const MOST_POINTS: usize = 1001;
 /// From this ratio of both ends on, positive values are evenly spaced in their logarithm.
@@ -133,10 +135,16 @@ impl InputAxis {
     }
 }
 
-impl FromStr for InputAxis {
-    type Err = AxisError;
+impl InputAxis {
+    /// Reads a third input, which has fewer values than an axis.
+    ///
+    /// # Errors
+    /// As [`Self::new`], and for a text of another form.
+    pub fn slider(text: &str) -> Result<Self, AxisError> {
+        Self::read(text, SLIDER_POINTS)
+    }
 
-    fn from_str(text: &str) -> Result<Self, AxisError> {
+    fn read(text: &str, default_points: usize) -> Result<Self, AxisError> {
         let (name, range) = parts(text, "INPUT=LOW:HIGH or INPUT=LOW:HIGH:POINTS, such as v_n=0.1:30")?;
         let parts: Vec<&str> = range.split(':').collect();
         let (low, high, points) = match parts[..] {
@@ -146,9 +154,17 @@ impl FromStr for InputAxis {
         };
         let points = match points {
             Some(text) => text.trim().parse().map_err(|_| AxisError::PointsText(text.to_owned()))?,
-            None => DEFAULT_POINTS,
+            None => default_points,
         };
         Self::new(name, number(low)?, number(high)?, points)
+    }
+}
+
+impl FromStr for InputAxis {
+    type Err = AxisError;
+
+    fn from_str(text: &str) -> Result<Self, AxisError> {
+        Self::read(text, DEFAULT_POINTS)
     }
 }
 

@@ -1,20 +1,22 @@
 //! Maps of a model: what it decides over two inputs of an impact while the other inputs are fixed.
 //!
-//! A [`Map`] has a [`Cell`] for each pair of values of two [`InputAxis`]. Random draws are averaged. Format for users:
-//! `docs/how-to/map.md`.
+//! A [`Map`] has a [`Cell`] for each pair of values of two [`InputAxis`], a [`MapSeries`] a map for each value of a
+//! third input. Random draws are averaged. Format for users: `docs/how-to/map.md`.
 
 mod axis;
 mod cell;
+mod series;
 
 use rayon::prelude::*;
 
 use crate::range::{RangeCounts, RangeReader, Reason};
-use nearwall::impact::{INPUTS, Impact, Input};
+use nearwall::impact::Impact;
 use nearwall::model::Model;
 
-pub use axis::{AxisError, DEFAULT_POINTS, InputAxis, Setting};
+pub use axis::{AxisError, DEFAULT_POINTS, InputAxis, SLIDER_POINTS, Setting};
 pub use cell::Cell;
 use cell::Draws;
+pub use series::MapSeries;
 
 /// What a model decides over two inputs.
 #[derive(Debug, Clone)]
@@ -75,13 +77,6 @@ impl Map {
         let pair = move |row: f64| columns.clone().into_iter().map(move |column| [column, row]);
         self.y.values().into_iter().flat_map(pair)
     }
-
-    /// The inputs that are not along an axis, with their values.
-    pub fn fixed_inputs(&self) -> impl Iterator<Item = (&'static Input, f64)> {
-        let axes = [self.x.input().name, self.y.input().name];
-        let fixed = INPUTS.iter().filter(move |input| !axes.contains(&input.name));
-        fixed.map(|input| (input, (input.value)(&self.fixed)))
-    }
 }
 
 /// Counts the stated ranges that cells leave, and marks those for which it matters.
@@ -103,24 +98,25 @@ fn count_ranges(model: &Model, wall: usize, impacts: &[Impact], cells: &mut [Opt
 const TRIED_SPEEDS: [f64; 3] = [0.3, 3.0, 30.0];
 
 /// The axes of a map where the user gives one or none: `v_n`, and the first of `T_w`, `d`, `T_p`,
-/// `conversion` and `v_t` that changes an outcome.
+/// `conversion` and `v_t` that changes an outcome; none of them is the third input.
 pub fn default_axes(
     model: &Model,
     wall: usize,
     fixed: &Impact,
-    [x, y]: [Option<InputAxis>; 2],
+    [x, y, third]: [Option<InputAxis>; 3],
     points: usize,
 ) -> Option<[InputAxis; 2]> {
     let mut candidates = Vec::new();
     for name in ["v_n", "T_w", "d", "T_p", "conversion", "v_t"] {
         let Some(axis) = InputAxis::over_default_range(name, model, wall, points) else { continue };
-        let taken = [&x, &y].into_iter().flatten().any(|given| given.input().name == name);
+        let taken = [&x, &y, &third].into_iter().flatten().any(|given| given.input().name == name);
         if !taken && (name == "v_n" || depends_on(model, wall, fixed, &axis)) {
             candidates.push(axis);
         }
     }
     // A model that depends on nothing else still has a map.
-    for name in ["d", "T_w"] {
+    for name in ["d", "T_w"].into_iter().filter(|name| third.is_none_or(|third| third.input().name != *name))
+    {
         candidates.extend(InputAxis::over_default_range(name, model, wall, points));
     }
     let mut next = candidates.into_iter();

@@ -1,7 +1,7 @@
 //! The result of a benchmark as text: where the chosen law fails, then all laws.
 
 use super::format::{number, percent};
-use super::page::Table;
+use super::page::{Table, TableColumn};
 use crate::diagnose::benchmark::{
     BenchmarkEntry, BenchmarkMeasure, BenchmarkResult, EntryKind, SetMeasure, Shortfall,
 };
@@ -36,14 +36,46 @@ pub fn text(
     ] {
         text += &laws(result, kind, caption).map_or(String::new(), |table| table.text());
     }
-    text
+    text + &captures(result).map_or(String::new(), |table| table.text())
+}
+
+/// The laws of capture by a melt, the worst first; each on its own readings. `None` without any.
+fn captures(result: &BenchmarkResult) -> Option<Table> {
+    let capture = |entry: &BenchmarkEntry| entry.by_observable[2];
+    let gain = |entry: &BenchmarkEntry| capture(entry).map_or(f64::INFINITY, |measure| measure.gain);
+    let mut entries: Vec<&BenchmarkEntry> =
+        result.entries.iter().filter(|entry| entry.kind == EntryKind::Law(2)).collect();
+    entries.sort_by(|a, b| gain(a).total_cmp(&gain(b)));
+    let worst = |entry: &BenchmarkEntry| {
+        let worst = entry.sets.iter().min_by(|a, b| a.measure.gain.total_cmp(&b.measure.gain));
+        worst.map_or("–".to_owned(), |set| format!("{} {}", set.set, nats(set.measure.gain)))
+    };
+    let columns: [TableColumn<'_, &BenchmarkEntry>; 7] = [
+        ("law", &|entry| entry.name.clone()),
+        ("captured beyond level", &|entry| nats(capture(entry).map_or(f64::NAN, |measure| measure.gain))),
+        ("adhesion alone", &|entry| nats(entry.without.map_or(f64::NAN, |measure| measure.gain))),
+        ("readings", &|entry| capture(entry).map_or(0, |measure| measure.readings).to_string()),
+        ("sources", &|entry| sources(entry).to_string()),
+        ("worst set", &|entry| worst(entry)),
+        ("fitted numbers", &|entry| fitted(entry)),
+    ];
+    let caption = "Laws of capture by a melt, the worst first: captures in which a melt may matter, of sets that have what the law needs";
+    (!entries.is_empty()).then(|| Table::of_items(caption, 1, &entries, &columns))
+}
+
+/// The number of sources of an entry's readings.
+fn sources(entry: &BenchmarkEntry) -> usize {
+    let mut names: Vec<&str> = entry.sets.iter().map(|set| set.source.as_str()).collect();
+    names.sort_unstable();
+    names.dedup();
+    names.len()
 }
 
 /// The sets of an entry, the worst first, and the ranges of inputs in which it is worse than the level.
 fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> String {
     let of_kind = |set: &&SetMeasure| match entry.kind {
         EntryKind::Law(0) => set.observable != "e_t",
-        EntryKind::Law(_) => set.observable == "e_t",
+        EntryKind::Law(1) => set.observable == "e_t",
         _ => true,
     };
     let mut sets: Vec<&SetMeasure> = entry.sets.iter().filter(of_kind).collect();

@@ -26,9 +26,31 @@ pub fn number(value: f64) -> String {
     if text.contains('.') { trimmed(&text) } else { text }
 }
 
+/// Lengths up to this one [m] are shown in µm.
+const LONGEST_IN_MICROMETRES: f64 = 2e-3;
+
+/// How values of an SI unit are shown of which this is the largest: a factor and the name of the unit.
+pub fn shown_unit(unit: &str, largest: f64) -> (f64, String) {
+    match unit {
+        "m" if largest.abs() <= LONGEST_IN_MICROMETRES => (1e6, "µm".to_owned()),
+        _ => (1.0, unit.replace("m2", "m²").replace("m3", "m³")),
+    }
+}
+
 /// A number with its unit; shares (unit `1` or empty) have none.
 pub fn with_unit(value: f64, unit: &str) -> String {
-    if unit == "1" || unit.is_empty() { number(value) } else { format!("{} {unit}", number(value)) }
+    let (factor, unit) = shown_unit(unit, value);
+    match unit.as_str() {
+        "1" | "" => number(value),
+        _ => format!("{} {unit}", number(factor * value)),
+    }
+}
+
+/// Two numbers with their unit: "5 to 200 µm".
+pub fn span([low, high]: [f64; 2], unit: &str) -> String {
+    let (factor, unit) = shown_unit(unit, low.abs().max(high.abs()));
+    let unit = if unit == "1" || unit.is_empty() { String::new() } else { format!(" {unit}") };
+    format!("{} to {}{unit}", number(factor * low), number(factor * high))
 }
 
 /// A share in per cent.
@@ -93,6 +115,14 @@ mod tests {
     fn numbers_are_short() {
         let short = [0.0, 1.0, 0.123_456, 12.345_67, 123_456.0, 0.000_012_34, 2.5e9, f64::NAN].map(number);
         assert_eq!(short, ["0", "1", "0.1235", "12.35", "123456", "1.234e-5", "2.5e9", "–"]);
+    }
+
+    #[test]
+    fn small_lengths_are_in_micrometres() {
+        let [short, long] = [[5e-6, 2e-4], [5e-6, 0.2]].map(|ends| span(ends, "m"));
+        assert_eq!((short.as_str(), long.as_str()), ("5 to 200 µm", "5e-6 to 0.2 m"));
+        assert_eq!((with_unit(7.5e-5, "m").as_str(), with_unit(0.4, "J/m2").as_str()), ("75 µm", "0.4 J/m²"));
+        assert_eq!((with_unit(0.5, "1").as_str(), span([0.1, 0.5], "1").as_str()), ("0.5", "0.1 to 0.5"));
     }
 
     #[test]

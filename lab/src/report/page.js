@@ -1,6 +1,7 @@
 "use strict";
 // What a page can do in a browser: figures enlarge, zoom and save as SVG or PNG, charts show the numbers under the
-// pointer, tables save as CSV. Without it the page reads the same.
+// pointer, tables save as CSV, a slider chooses among figures that otherwise stand one under the other. Without it the
+// page reads the same.
 (() => {
   const make = (tag, text) => Object.assign(document.createElement(tag), { textContent: text });
   const button = (text, what, act) => {
@@ -29,6 +30,24 @@
   document.querySelectorAll("table").forEach((table, place) => {
     const act = () => save(`table-${place + 1}.csv`, new Blob([csv(table)], { type: "text/csv" }));
     (table.closest(".scroll") || table).after(tools(button("CSV", "save this table", act)));
+  });
+
+  // --- figures of one value at a time --------------------------------------------------------------------------------
+  document.querySelectorAll(".steps").forEach((steps) => {
+    const parts = [...steps.children];
+    const slider = Object.assign(make("input", ""), { type: "range", min: 0, max: parts.length - 1 });
+    slider.value = Math.floor(parts.length / 2);
+    const label = make("label", "");
+    const shown = make("span", "");
+    label.className = "slider";
+    label.append(shown, slider);
+    const show = () => {
+      parts.forEach((part, place) => { part.hidden = place !== Number(slider.value); });
+      shown.textContent = parts[slider.value].querySelector("h3").textContent;
+    };
+    slider.addEventListener("input", show);
+    steps.before(label);
+    show();
   });
 
   // --- figures -------------------------------------------------------------------------------------------------------
@@ -103,7 +122,7 @@
     const at = (event) => new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
     svg.addEventListener("pointermove", (event) => {
       const here = at(event);
-      readout.textContent = x && y ? `x ${short(x(here.x))}, y ${short(y(here.y))}` : "";
+      readout.textContent = [x && `x ${short(x(here.x))}`, y && `y ${short(y(here.y))}`].filter(Boolean).join(", ");
       if (large() && event.buttons === 1) {
         const [left, top, width, height] = box(svg);
         const scale = width / svg.getBoundingClientRect().width;

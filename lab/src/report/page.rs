@@ -21,6 +21,8 @@ enum PagePart {
     Code(String),
     /// Figures and the CSS class of their grid.
     Figures(Vec<Figure>, &'static str),
+    /// Figures for each value of something, with a heading; a browser shows one value at a time beside a slider.
+    Steps(Vec<(String, Vec<Figure>)>),
     Table(Table),
     Marked(Table, Vec<RowStatus>),
 }
@@ -201,6 +203,11 @@ impl Page {
         if !figures.is_empty() {
             self.sections.push(PagePart::Figures(figures, style));
         }
+    }
+
+    /// Adds figures for each value of something, of which a slider chooses one.
+    pub fn steps(&mut self, steps: Vec<(String, Vec<Figure>)>) {
+        self.sections.push(PagePart::Steps(steps));
     }
 
     /// Adds a table.

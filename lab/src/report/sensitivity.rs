@@ -1,11 +1,15 @@
 //! The page of a sensitivity: for each wall what it captures at both ends of the range of each number, and a table.
 
-use super::{Chart, Figure, Page, RowStatus, Table, number, percent};
-use crate::rig::sensitivity::{NumberEffect, Quality, Sensitivity};
+use super::chart::{TornadoRow, tornado};
+use super::format::{shown_unit, span, with_unit};
+use super::{Figure, Page, RowStatus, Table, number, percent};
+use crate::rig::sensitivity::{NumberEffect, Quality, Scale, Sensitivity, WallEffect};
 
 /// Numbers in a figure and in the table.
 const SHOWN_NUMBERS: usize = 15;
 const LISTED_NUMBERS: usize = 60;
+/// A bar is drawn from this share of the largest change on [1].
+const LEAST_SHOWN: f64 = 0.01;
 
 /// Makes the page.
 ///
@@ -14,8 +18,9 @@ const LISTED_NUMBERS: usize = 60;
 pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
     let mut page = Page::new(&format!("{}: which numbers matter", found.title));
     page.lead(
-        "Each number was moved to the low and to the high end of its range, one at a time and with the same random numbers. \
-         The numbers are ranked by the largest change of the captured share of the injected mass at any wall.",
+        "Each number was moved to the low and to the high end of its range, one at a time and with the same random \
+         numbers. A bar shows how far that changes what a wall captures; the table ranks all numbers by their largest \
+         change at any wall.",
     );
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
     page.figures((0..walls.len()).filter_map(|wall| figure(found, wall)));
@@ -26,7 +31,7 @@ pub fn page(found: &Sensitivity) -> Result<String, askama::Error> {
         .numbers
         .iter()
         .filter(|effect| effect.largest == 0.0)
-        .map(|effect| effect.key.as_str())
+        .map(|effect| effect.name.as_str())
         .collect();
     if !none.is_empty() {
         page.text(format!("Without any effect: {}.", none.join(", ")));
@@ -47,18 +52,21 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
         .filter(|(_, effect)| effect.largest > 0.0)
         .take(LISTED_NUMBERS)
         .collect();
-    let mut header =
-        ["rank", "number", "range", "source", "low", "value", "high"].map(str::to_owned).to_vec();
     let walls = found.numbers.first().map_or(&[][..], |first| &first.walls);
-    header.extend(walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall)));
+    let captured = walls.iter().map(|wall| format!("captured at {}: low, as it is, high", wall.wall));
+    let before = ["rank", "number", "unit", "low", "value", "high"].map(str::to_owned);
+    let after = ["range", "key", "source"].map(str::to_owned);
+    let header = before.into_iter().chain(captured).chain(after).collect();
     let cells = |(rank, effect): &(usize, &NumberEffect)| {
-        let mut cells = vec![(rank + 1).to_string(), effect.key.clone(), effect.range.clone()];
-        cells.push(effect.source.clone().unwrap_or_else(|| "none given".to_owned()));
-        cells.extend([effect.low, effect.value, effect.high].map(number));
+        let (factor, unit) = shown(effect);
+        let mut cells = vec![(rank + 1).to_string(), effect.name.clone(), unit];
+        cells.extend([effect.low, effect.value, effect.high].map(|value| number(factor * value)));
         cells.extend(effect.walls.iter().map(|wall| {
             let shares = [wall.captured_low, wall.captured, wall.captured_high].map(percent);
             shares.join(", ")
         }));
+        let source = effect.source.clone().unwrap_or_else(|| "none given".to_owned());
+        cells.extend([effect.range.clone(), effect.key.clone(), source]);
         cells
     };
     let status = rows.iter().map(|(_, effect)| match effect.quality {
@@ -66,32 +74,63 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
         Quality::Sourced | Quality::Stated => RowStatus::Good,
     });
     let table = Table {
-        caption: "Marked: an assumed number, whose range is assumed too. For a table or a list the ends are a factor or a \
-                  difference that applies to all its values."
+        caption: "Marked: an assumed number, whose range is assumed too. × and + stand before a factor and a difference \
+                  that apply to all values of a table or a list."
             .to_owned(),
         header,
         rows: rows.iter().map(cells).collect(),
-        text_columns: 4,
+        text_columns: 3,
     };
     (table, status.collect())
 }
 
-/// Captured share at both ends of the ranges, by rank.
-fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
-    let shown = &found.numbers[..found.numbers.len().min(SHOWN_NUMBERS)];
-    let base = shown.first()?.walls.get(wall)?;
-    let of = |share: fn(&crate::rig::sensitivity::WallEffect) -> f64| -> Vec<[f64; 2]> {
-        let point = |(rank, effect): (usize, &NumberEffect)| {
-            Some([(rank + 1) as f64, 100.0 * share(effect.walls.get(wall)?)])
-        };
-        shown.iter().enumerate().filter_map(point).collect()
+/// How value and ends of a number are shown: a factor, and the unit.
+fn shown(effect: &NumberEffect) -> (f64, String) {
+    match effect.scale {
+        Scale::Value => shown_unit(effect.unit, effect.high),
+        Scale::Factor => (1.0, "×".to_owned()),
+        Scale::Difference => (1.0, format!("+ {}", effect.unit)),
+    }
+}
+
+/// A number with its range.
+fn named(effect: &NumberEffect) -> String {
+    let ends = [effect.low, effect.high];
+    let range = match effect.scale {
+        Scale::Value => span(ends, effect.unit),
+        Scale::Factor => format!("× {}, all values", span(ends, "")),
+        Scale::Difference => format!("{}, added to all values", span(ends, effect.unit)),
     };
-    let chart = Chart::new(&base.wall, "rank of the number", "captured [%]")
-        .points("number at its low end", &of(|wall| wall.captured_low))
-        .points("at its high end", &of(|wall| wall.captured_high))
-        .mark_y(100.0 * base.captured, "as it is");
-    Some(chart.figure(
-        &format!("sensitivity-{wall}"),
-        "Captured share of the injected mass; the table names the ranks.",
-    ))
+    format!("{}: {range}", effect.name)
+}
+
+/// What a wall captures at both ends of the ranges, the largest change first.
+fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
+    let of_wall =
+        |effect: &NumberEffect| Some((named(effect), effect.walls.get(wall)?.clone(), ends(effect)));
+    let mut effects: Vec<(String, WallEffect, [String; 2])> =
+        found.numbers.iter().filter_map(of_wall).collect();
+    let base = effects.first()?.1.clone();
+    effects.sort_by(|(_, a, _), (_, b, _)| b.change.total_cmp(&a.change));
+    let least = LEAST_SHOWN * effects.first().map_or(0.0, |(_, largest, _)| largest.change);
+    effects.retain(|(_, effect, _)| effect.change > 0.0 && effect.change >= least);
+    effects.truncate(SHOWN_NUMBERS);
+    let row = |(name, effect, ends): (String, WallEffect, [String; 2])| {
+        let results = [effect.captured_low, effect.captured_high];
+        let said = |side: usize| format!("{}: {} captured", ends[side], percent(results[side]));
+        TornadoRow { name, results: results.map(|share| 100.0 * share), ends: [said(0), said(1)] }
+    };
+    let title = format!("Captured at {}", base.wall);
+    let caption = "Share of the injected mass; the largest change comes first.";
+    let texts = [&format!("sensitivity-{wall}"), &title, caption, "captured [% of the injected mass]"];
+    tornado(texts, 100.0 * base.captured, effects.into_iter().map(row).collect())
+}
+
+/// Both ends of a number in words.
+fn ends(effect: &NumberEffect) -> [String; 2] {
+    [effect.low, effect.high].map(|end| match effect.scale {
+        Scale::Value => format!("{} {}", effect.name, with_unit(end, effect.unit)),
+        Scale::Factor => format!("{} × {}", effect.name, number(end)),
+        Scale::Difference => format!("{} + {}", effect.name, with_unit(end, effect.unit)),
+    })
 }

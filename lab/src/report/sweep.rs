@@ -137,7 +137,7 @@ fn figure(runs: &Runs, quantity: &str, x: &[f64], label: &str, index: usize) -> 
     let bars: ErrorBars = drawn.iter().map(|i| errors[*i]).collect();
     let mut chart = Chart::new(&readable(quantity), label, &format!("{} [1]", readable(quantity)))
         .points_with_errors("simulated", &points, &bars)
-        .points("published", &over_x(published));
+        .published("published", &over_x(published));
     if over_decades(x) {
         chart = chart.log_x();
     }

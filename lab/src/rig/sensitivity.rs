@@ -15,6 +15,7 @@ use super::PredictionError;
 use super::captures::{Captures, Flights, run_captures};
 use super::case_number::SPREAD;
 use super::case_text::{CaseText, change_value};
+use super::number_name::{name_of, unit_of_key};
 use crate::simulate::{DistributionKey, number_of};
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
@@ -105,6 +106,29 @@ impl Move {
     }
 }
 
+/// What the value and the ends of a number are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Scale {
+    /// Values in its unit.
+    Value,
+    /// Factors on all values of a table, polynomial or list.
+    Factor,
+    /// Differences of all values of a table, polynomial or list, in its unit.
+    Difference,
+}
+
+impl Scale {
+    /// Its name in files.
+    fn name(self) -> &'static str {
+        match self {
+            Self::Value => "value",
+            Self::Factor => "factor",
+            Self::Difference => "difference",
+        }
+    }
+}
+
 /// How well a number is known without a stated range.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -135,6 +159,15 @@ struct Number {
 }
 
 impl Number {
+    /// What its value and its ends are.
+    fn scale(&self) -> Scale {
+        match (self.value, self.how) {
+            (Some(_), _) => Scale::Value,
+            (None, Move::Difference(_)) => Scale::Difference,
+            (None, _) => Scale::Factor,
+        }
+    }
+
     /// Its value; for all values of a table together the factor 1 or the difference 0.
     fn start(&self) -> f64 {
         let all = if matches!(self.how, Move::Difference(_)) { 0.0 } else { 1.0 };
@@ -164,6 +197,12 @@ pub struct WallEffect {
 pub struct NumberEffect {
     /// Dotted key in the case, with the model as `model`.
     pub key: String,
+    /// The same in words.
+    pub name: String,
+    /// Its unit: "1" for none, "" where it is not known.
+    pub unit: &'static str,
+    /// What value and ends are.
+    pub scale: Scale,
     /// Its value; for a table, polynomial or list the factor 1 or the difference 0 of all its values.
     pub value: f64,
     /// The low end of its range; for a table a factor or a difference.
@@ -209,6 +248,9 @@ impl Sensitivity {
         writer.write_record([
             "rank",
             "number",
+            "name",
+            "unit",
+            "scale",
             "wall",
             "value",
             "low",
@@ -224,7 +266,8 @@ impl Sensitivity {
         ])?;
         for (rank, number) in self.numbers.iter().enumerate() {
             for wall in &number.walls {
-                let mut row = vec![(rank + 1).to_string(), number.key.clone(), wall.wall.clone()];
+                let mut row = vec![(rank + 1).to_string(), number.key.clone(), number.name.clone()];
+                row.extend([number.unit, number.scale.name(), &wall.wall].map(str::to_owned));
                 row.extend([number.value, number.low, number.high].map(|value| value.to_string()));
                 let shares =
                     [wall.captured_low, wall.captured, wall.captured_high, wall.change, wall.change_error];
@@ -325,7 +368,8 @@ impl SensitivityCase {
     ) -> Result<NumberEffect, PredictionError> {
         // An end that is refused stays where the number is.
         let unmoved = || (number.how.apply(number.start(), 0.0, 0), base.clone());
-        let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights));
+        let sound = base.trouble.is_none();
+        let ends = [-1.0, 1.0].map(|side| self.moved(number, side, flights, sound));
         if let [Err(reason), Err(_)] = &ends {
             return Err(reason.clone());
         }
@@ -344,6 +388,9 @@ impl SensitivityCase {
         let walls: Vec<WallEffect> = base.walls.iter().enumerate().map(wall).collect();
         Ok(NumberEffect {
             key: number.key.clone(),
+            name: name_of(&number.key),
+            unit: unit_of_key(&number.key),
+            scale: number.scale(),
             value: number.start(),
             low,
             high,
@@ -355,12 +402,14 @@ impl SensitivityCase {
         })
     }
 
-    /// The number at an end of its range and the captures there; nearer where the end is refused.
+    /// The number at an end of its range and the captures there; nearer where the end is refused, or some particles
+    /// cannot be used that could (`sound`) where the number is.
     fn moved(
         &self,
         number: &Number,
         side: f64,
         flights: Option<&Flights<'_>>,
+        sound: bool,
     ) -> Result<(f64, Captures), PredictionError> {
         let mut refused = PredictionError::NoParticle(String::new());
         for halvings in 0..RANGE_HALVINGS {
@@ -377,9 +426,10 @@ impl SensitivityCase {
                 None => run_captures(&case),
             });
             match captures {
-                Ok(captures) => {
-                    return Ok((number.how.apply(number.start(), side, halvings), captures));
+                Ok(Captures { trouble: Some(reason), .. }) if sound => {
+                    refused = PredictionError::NoParticle(reason)
                 }
+                Ok(captures) => return Ok((number.how.apply(number.start(), side, halvings), captures)),
                 Err(reason) => refused = reason,
             }
         }

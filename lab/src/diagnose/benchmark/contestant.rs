@@ -14,6 +14,9 @@ use super::{BenchmarkError, EntryKind};
 use crate::diagnose::fault;
 use crate::rig::Band;
 
+/// Captured shares that differ by less are the same [1].
+const SAME_SHARE: f64 = 1e-9;
+
 /// The answers of a law with certain numbers to every set.
 pub(super) struct Trial {
     /// The fitted numbers.
@@ -40,7 +43,7 @@ impl Contestant {
     pub fn law(law: &NamedLaw, sets: &[ReadSet]) -> Result<Self, BenchmarkError> {
         let kind = EntryKind::Law(law.side as usize);
         let text = |base: &str, numbers: &Numbers| law.model_text(base, numbers);
-        let mut whole = Self::empty(law.name.to_owned(), kind);
+        let mut whole = Self::empty(law.name.clone(), kind);
         for numbers in law.trials() {
             let one = models_of(sets, |base| text(base, &numbers).map_err(BenchmarkError::from))?;
             whole.decided = one.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();
@@ -95,6 +98,14 @@ impl Contestant {
         };
         let of_set = |(place, set): (usize, &ReadSet)| (0..set.count()).map(|row| band(place, row)).collect();
         Ok(Self { bands: Some(sets.iter().enumerate().map(of_set).collect()), ..self })
+    }
+
+    /// Whether it captures another share of a reading than `other`, with some of its numbers.
+    pub fn captures_otherwise(&self, other: &Self, set: usize, row: usize) -> bool {
+        let capture = |trial: &Trial| mean(trial.forecasts[set].of(row), &Offset::default()).capture;
+        let is_other =
+            |of: &Trial| other.trials.iter().any(|one| (capture(one) - capture(of)).abs() > SAME_SHARE);
+        self.decided[set][row] && other.decided[set][row] && self.trials.iter().any(is_other)
     }
 
     /// Another program, which answers all readings in one run.

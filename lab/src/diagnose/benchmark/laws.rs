@@ -1,6 +1,8 @@
 //! The laws of the library by name, and the laws of a model file, with the materials of a measured set.
 
 use nearwall::law::{Parameter, Search};
+use nearwall::slag::VISCOSITY_LAWS;
+use nearwall::slag::urbain::KALMANOVITCH_FRANK;
 use nearwall::{normal, tangential};
 use toml_edit::{DocumentMut, Item, Table, TomlError, value};
 
@@ -11,13 +13,15 @@ const ADHESION: &str = "work_of_adhesion";
 /// Values of a number that is fitted: so many steps over its range.
 const STEPS: u32 = 12;
 
-/// One of the two laws of a rebound.
+/// What a law decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     /// `[normal]`: `e_n`, and captures by adhesion.
     Normal,
     /// `[tangential]`: `e_t`.
     Tangential,
+    /// `[capture]`: captures by a melt.
+    Capture,
 }
 
 impl Side {
@@ -25,6 +29,7 @@ impl Side {
         match self {
             Self::Normal => "normal",
             Self::Tangential => "tangential",
+            Self::Capture => "capture",
         }
     }
 }
@@ -33,14 +38,18 @@ impl Side {
 #[derive(Debug, Clone)]
 pub(super) struct NamedLaw {
     pub side: Side,
-    pub name: &'static str,
+    /// The law; of a capture law with the viscosity law that it uses.
+    pub name: String,
     numbers: Vec<(&'static str, Search)>,
 }
 
 /// Every law of the library.
 pub(super) fn named_laws() -> Vec<NamedLaw> {
-    let law =
-        |side, name, numbers: &[(&'static str, Search)]| NamedLaw { side, name, numbers: numbers.to_vec() };
+    let law = |side, name: &str, numbers: &[(&'static str, Search)]| NamedLaw {
+        side,
+        name: name.to_owned(),
+        numbers: numbers.to_vec(),
+    };
     let share = Search::Linear(0.05, 1.0);
     let yielding = Search::Log(0.35, 5.6);
     let friction = Search::Linear(0.03, 0.9);
@@ -55,6 +64,29 @@ pub(super) fn named_laws() -> Vec<NamedLaw> {
     laws.extend(normal::LISTED_LAWS.iter().map(|one| law(Side::Normal, one.name, &fitted(one.parameters))));
     laws.extend(
         tangential::LISTED_LAWS.iter().map(|one| law(Side::Tangential, one.name, &fitted(one.parameters))),
+    );
+    laws
+}
+
+/// Adhesion alone, beside which the laws of capture stand.
+pub(super) fn adhesion_alone() -> NamedLaw {
+    NamedLaw { side: Side::Capture, name: "none".to_owned(), numbers: Vec::new() }
+}
+
+/// Every law of capture by a melt; the constant limit of viscosity with each law of viscosity, the others that need one
+/// with Kalmanovitch and Frank's.
+pub(super) fn capture_laws() -> Vec<NamedLaw> {
+    let law = |name: String, numbers: Vec<_>| NamedLaw { side: Side::Capture, name, numbers };
+    // The literature has 8 to 1e7 Pa s.
+    let reference = ("reference_viscosity", Search::Log(1.0, 1e8));
+    let mut laws: Vec<NamedLaw> =
+        ["fusion", "melt-fraction"].map(|name| law(name.to_owned(), Vec::new())).into();
+    for viscosity in VISCOSITY_LAWS {
+        laws.push(law(format!("viscosity {}", viscosity.name), vec![reference]));
+    }
+    laws.extend(
+        ["kinetic-energy", "droplet"]
+            .map(|name| law(format!("{name} {}", KALMANOVITCH_FRANK.name), Vec::new())),
     );
     laws
 }
@@ -89,7 +121,9 @@ impl NamedLaw {
             Item::Table(Table::from_iter([("model", value("thornton-ning")), ("yield_ratio", value(1.6))]));
         laws["tangential"] =
             Item::Table(Table::from_iter([("model", value("constant")), ("e_t", value(0.8))]));
-        let mut own = Table::from_iter([("model", value(self.name))]);
+        let mut words = self.name.split(' ');
+        let mut own = Table::from_iter([("model", value(words.next().unwrap_or_default()))]);
+        own.extend(words.next().map(|viscosity| ("law", value(viscosity))));
         own.extend(numbers.iter().map(|(name, number)| (*name, value(*number))));
         laws[self.side.table()] = Item::Table(own);
         with_laws(base, &laws)
@@ -148,10 +182,23 @@ mod tests {
                 let text = law.model_text(BASE, numbers).unwrap();
                 let model =
                     Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-                let names = [model.normal_law().name(), model.tangential_law().name()];
+                let names = [model.normal_law().name(), model.tangential_law().name()].map(str::to_owned);
                 assert_eq!(names[law.side as usize], law.name);
                 assert!(model.terms().is_empty() && text.contains("work_of_adhesion = 0.2"), "{text}");
             }
+        }
+    }
+
+    /// The captures of a melt are told by a material that has what every law asks for.
+    #[test]
+    fn every_law_of_capture_is_a_model_of_a_fitting_material() {
+        let melt = "[materials.melt]\nlike = \"coal-slag\"\nmelt_fraction = 0.5\n";
+        let base = BASE.replace("montan-wax", "melt") + melt;
+        for law in capture_laws() {
+            let trials = law.trials();
+            let text = law.model_text(&base, &trials[0]).unwrap();
+            assert!(text.contains("[capture]"), "{text}");
+            Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
         }
     }
 

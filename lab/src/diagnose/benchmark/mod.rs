@@ -20,7 +20,7 @@ use std::path::Path;
 
 use super::observable::Observable;
 use contestant::Contestant;
-use laws::{NamedLaw, named_laws};
+use laws::{NamedLaw, adhesion_alone, capture_laws, named_laws};
 use measured_set::MeasuredSet;
 use read_set::ReadSet;
 
@@ -67,7 +67,7 @@ pub enum BenchmarkError {
 pub enum EntryKind {
     /// The reference: the means of the other sources.
     Level,
-    /// A law of the library: 0 for one of `e_n`, 1 for one of `e_t`.
+    /// A law of the library: 0 for one of `e_n`, 1 for one of `e_t`, 2 for one of capture by a melt.
     Law(usize),
     /// A model or a program, with everything that it says.
     Whole,
@@ -77,7 +77,9 @@ impl EntryKind {
     /// Whether it says something about an observable: a law of `e_n` nothing about `e_t`.
     fn answers_for(self, observable: Observable) -> bool {
         match self {
-            Self::Law(side) => (side == 1) == (observable == Observable::TangentialRestitution),
+            Self::Law(1) => observable == Observable::TangentialRestitution,
+            Self::Law(2) => observable == Observable::Capture,
+            Self::Law(_) => observable != Observable::TangentialRestitution,
             Self::Level | Self::Whole => true,
         }
     }
@@ -88,6 +90,8 @@ pub struct Benchmark {
     sets: Vec<ReadSet>,
     sources: Vec<String>,
     contestants: Vec<Contestant>,
+    /// Adhesion alone, then the laws of capture by a melt: each is scored on the sets that have what it needs.
+    captures: Vec<Contestant>,
 }
 
 impl Benchmark {
@@ -100,7 +104,11 @@ impl Benchmark {
         if let Some(folder) = folder {
             measured.extend(measured_set::folder_sets(folder)?);
         }
-        Self::of_sets(measured, &named_laws())
+        let mut whole = Self::of_sets(measured, &named_laws())?;
+        let laws = [vec![adhesion_alone()], capture_laws()].concat();
+        let captures = laws.iter().map(|law| Contestant::law(law, &whole.sets));
+        whole.captures = captures.collect::<Result<_, _>>()?;
+        Ok(whole)
     }
 
     /// These laws on these sets.
@@ -109,13 +117,14 @@ impl Benchmark {
         let sets = measured.into_iter().map(|set| ReadSet::new(set, &mut sources));
         let sets = sets.collect::<Result<Vec<_>, _>>()?;
         let contestants = laws.iter().map(|law| Contestant::law(law, &sets)).collect::<Result<_, _>>()?;
-        Ok(Self { sets, sources, contestants })
+        Ok(Self { sets, sources, contestants, captures: Vec::new() })
     }
 
     /// The names of the laws of the library, each once.
     #[must_use]
-    pub fn law_names() -> Vec<&'static str> {
-        let names: BTreeSet<&'static str> = named_laws().iter().map(|law| law.name).collect();
+    pub fn law_names() -> Vec<String> {
+        let laws = named_laws().into_iter().chain(capture_laws());
+        let names: BTreeSet<String> = laws.map(|law| law.name).collect();
         names.into_iter().collect()
     }
 

@@ -3,8 +3,8 @@
 //! A critical velocity [m/s] becomes two impacts: at half of it the particle stays, at twice it
 //! rebounds (assumed: outside the scatter of the threshold; the sources state no errors). A captured
 //! share or an `e_n` over a range of speeds stands at the geometric mean of its ends. Observations
-//! whose source does not state the size, and those of the wax paper, whose table is a set of its own,
-//! are left out.
+//! whose source does not state the size, and those of the wax paper that its own set has, are left
+//! out.
 
 use std::borrow::Cow;
 use std::fmt::Write;
@@ -20,13 +20,15 @@ macro_rules! models {
         [$(($path, include_str!(concat!("../../../../", $path)))),*]
     };
 }
-static MODELS: [(&str, &str); 6] = models![
+static MODELS: [(&str, &str); 8] = models![
     "tests/data/published_sticking/fly-ash-on-steel.toml",
     "tests/data/published_sticking/silver-on-aluminium.toml",
     "tests/data/published_sticking/fluorescein-on-hard-target.toml",
     "tests/data/published_sticking/hot-glass-on-glass.toml",
     "validation/migraine/plain.toml",
     "validation/migraine/molybdenum.toml",
+    "validation/troiano/char.toml",
+    "validation/troiano/droplet.toml",
 ];
 const HEADER: &str = "v_n,v_t,d,T_p,T_w,conversion,n_impacts,e_n,e_n_err,capture_efficiency\n";
 /// Impacts of a row: it is an average, of which the benchmark counts one reading.

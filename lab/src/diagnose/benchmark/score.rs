@@ -44,6 +44,8 @@ pub struct BenchmarkEntry {
     pub refusal: Option<String>,
     /// Readings that it does not decide.
     pub undecided: usize,
+    /// Of a law of capture by a melt: what adhesion alone scores on the same readings.
+    pub without: Option<BenchmarkMeasure>,
     /// By set and observable.
     pub sets: Vec<SetMeasure>,
     pub(super) readings: Vec<ScoredReading>,
@@ -115,11 +117,7 @@ impl Benchmark {
     /// Scores everything on the readings that all decide.
     #[must_use]
     pub fn run(&self) -> BenchmarkResult {
-        let decided = |set: usize, row: usize| self.contestants.iter().all(|one| one.decided[set][row]);
-        let rows = self.sets.iter().enumerate();
-        let rows = rows.map(|(place, set)| (0..set.count()).filter(|&row| decided(place, row)).collect());
-        let mut common = Common { sets: &self.sets, rows: rows.collect(), sources: self.sources.len() };
-        common.leave_out_lone_observables();
+        let common = self.common(|set, row| self.contestants.iter().all(|one| one.decided[set][row]));
         let level = common.level();
         let mut entries = vec![common.entry("level", EntryKind::Level, &level, &level, &self.sources)];
         for one in &self.contestants {
@@ -128,11 +126,40 @@ impl Benchmark {
             let undecided = one.decided.iter().flatten().filter(|decided| !**decided).count();
             entries.push(BenchmarkEntry { undecided, refusal: one.refusal.clone(), ..entry });
         }
+        entries.extend(self.capture_entries());
         let all = self.sets.iter().map(ReadSet::count).sum();
         let used = common.rows.iter().map(Vec::len).sum();
         let has_rows = |source: &usize| common.places(*source).any(|set| !common.rows[set].is_empty());
         let sources = (0..self.sources.len()).filter(has_rows).map(|source| self.sources[source].clone());
         BenchmarkResult { readings: [all, used], sources: sources.collect(), entries }
+    }
+
+    /// The readings of these sets and rows that can be scored.
+    fn common(&self, is_scored: impl Fn(usize, usize) -> bool) -> Common<'_> {
+        let rows = self.sets.iter().enumerate();
+        let rows = rows.map(|(place, set)| (0..set.count()).filter(|&row| is_scored(place, row)).collect());
+        let mut common = Common { sets: &self.sets, rows: rows.collect(), sources: self.sources.len() };
+        common.leave_out_lone_observables();
+        common
+    }
+
+    /// Each law of capture by a melt, beside adhesion alone, on the captures that it decides and of which any of these
+    /// laws says something else than adhesion does.
+    fn capture_entries(&self) -> Vec<BenchmarkEntry> {
+        let Some((alone, laws)) = self.captures.split_first() else { return Vec::new() };
+        let entry = |one: &Contestant| {
+            let is_of_melt = |set: usize, row: usize| {
+                self.sets[set].observables[row] == Observable::Capture
+                    && laws.iter().any(|law| law.captures_otherwise(alone, set, row))
+            };
+            let common = self.common(|set, row| one.decided[set][row] && is_of_melt(set, row));
+            let level = common.level();
+            let of = |one: &Contestant| {
+                common.entry(&one.name, one.kind, &common.scored(one, &level), &level, &self.sources)
+            };
+            BenchmarkEntry { without: of(alone).by_observable[Observable::Capture as usize], ..of(one) }
+        };
+        laws.iter().map(entry).collect()
     }
 }
 
@@ -322,6 +349,7 @@ impl Common<'_> {
             numbers: numbers.clone(),
             refusal: None,
             undecided: 0,
+            without: None,
             sets,
             readings: readings.clone(),
         }

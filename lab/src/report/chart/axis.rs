@@ -36,10 +36,11 @@ pub(super) fn ends(low: f64, high: f64) -> Option<[f64; 2]> {
     all_drawable([low, high]).filter(|[low, high]| low < high)
 }
 
-/// Short numbers at the ticks.
-pub(super) fn tick_format() -> TickFormat {
+/// Short numbers at the ticks, those of the data times a factor.
+pub(super) fn tick_format(factor: f64) -> TickFormat {
     // Rounding leaves numbers near 1e-17 where a zero is meant.
-    TickFormat::Custom(Arc::new(|value: f64| number(if value.abs() < 1e-14 { 0.0 } else { value })))
+    let text = move |value: f64| number(if value.abs() < 1e-14 { 0.0 } else { factor * value });
+    TickFormat::Custom(Arc::new(text))
 }
 
 /// Round edges of about `count` bins that cover `low` to `high`.

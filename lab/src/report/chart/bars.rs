@@ -5,7 +5,7 @@ use kuva::plot::legend::{LegendEntry, LegendShape};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 
-use super::axis::drawable;
+use super::axis::{drawable, tick_format};
 use super::svg::Figure;
 use super::{COLOURS, legend_entry};
 
@@ -15,7 +15,8 @@ pub struct BarChart {
     title: String,
     y_label: String,
     categories: Vec<String>,
-    series: Vec<(String, Vec<f64>)>,
+    /// Name, colour and values.
+    series: Vec<(String, String, Vec<f64>)>,
     stacked: bool,
 }
 
@@ -28,8 +29,15 @@ impl BarChart {
 
     /// Adds a series with one value per category.
     #[must_use]
-    pub fn series(mut self, name: &str, values: &[f64]) -> Self {
-        self.series.push((name.to_owned(), values.to_vec()));
+    pub fn series(self, name: &str, values: &[f64]) -> Self {
+        let colour = COLOURS[self.series.len() % COLOURS.len()];
+        self.coloured(name, colour, values)
+    }
+
+    /// Adds a series in a colour of its own.
+    #[must_use]
+    pub fn coloured(mut self, name: &str, colour: &str, values: &[f64]) -> Self {
+        self.series.push((name.to_owned(), colour.to_owned(), values.to_vec()));
         self
     }
 
@@ -42,19 +50,19 @@ impl BarChart {
 
     /// The figure; `id` is its name on the page.
     pub fn figure(self, id: &str, caption: &str) -> Figure {
-        let series = || self.series.iter().zip(COLOURS.into_iter().cycle());
         let mut plot = BarPlot::new();
         for (index, category) in self.categories.iter().enumerate() {
             let value = |values: &[f64]| values.get(index).copied().and_then(drawable).unwrap_or(0.0);
             let bars: Vec<(f64, &str)> =
-                series().map(|((_, values), colour)| (value(values), colour)).collect();
+                self.series.iter().map(|(_, colour, values)| (value(values), colour.as_str())).collect();
             plot = plot.with_group(category.clone(), bars);
         }
         let plots = vec![Plot::Bar(if self.stacked { plot.with_stacked() } else { plot })];
         let layout = Layout::auto_from_plots(&plots).with_y_label(&self.y_label).with_y_axis_min(0.0);
-        let legend: Vec<LegendEntry> = series()
-            .filter_map(|((name, _), colour)| legend_entry(name, colour, LegendShape::Rect))
-            .collect();
+        let layout = layout.with_tick_format(tick_format(1.0));
+        let entry =
+            |(name, colour, _): &(String, String, Vec<f64>)| legend_entry(name, colour, LegendShape::Rect);
+        let legend: Vec<LegendEntry> = self.series.iter().filter_map(entry).collect();
         Figure::new([id, &self.title, caption], plots, layout, legend)
     }
 }

@@ -1,4 +1,4 @@
-//! Charts as SVG: points, lines, bands and histograms over two axes; bars; maps.
+//! Charts as SVG: points, lines, bands and histograms over two axes; bars; tornados; maps.
 //!
 //! Colours are those of Okabe and Ito, which colour-blind readers can tell apart; series also
 //! differ by marker and dash, so that a figure survives a black-and-white printer.
@@ -8,6 +8,7 @@ mod bars;
 mod plane;
 mod scale;
 mod svg;
+mod tornado;
 
 use kuva::plot::annotations::ReferenceLine;
 use kuva::plot::legend::{LegendEntry, LegendShape};
@@ -17,13 +18,14 @@ use kuva::plot::{BandPlot, Histogram, LinePlot, ScatterPlot};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 
-use axis::{all_drawable, drawable, ends, finite, round_step};
+use axis::{all_drawable, drawable, ends, finite, round_step, tick_format};
 
 pub use axis::round_edges;
 pub use bars::BarChart;
 pub(super) use plane::{COLUMN_WIDTH, LabelledAxis, PlanePicture, hatching, swatch, text_at};
 pub(super) use scale::{ColourScale, NO_VALUE, Palette, regime_colour};
 pub use svg::Figure;
+pub(super) use tornado::{TornadoRow, tornado};
 
 /// Okabe and Ito's colours in an order that keeps neighbours apart; black is left for text.
 const COLOURS: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#8A8A8A"];
@@ -70,6 +72,10 @@ pub struct Chart {
     words: Vec<String>,
     lines: Vec<ReferenceLine>,
     panel: bool,
+    /// Gaps of the next line, if not those of its place.
+    dash: Option<usize>,
+    /// Shown numbers of the x axis over those of the data.
+    x_factor: Option<f64>,
 }
 
 impl Chart {
@@ -127,6 +133,27 @@ impl Chart {
         self
     }
 
+    /// Gives the next series the colour of this place, so that one thing has one colour in all figures.
+    #[must_use]
+    pub fn coloured(mut self, place: usize) -> Self {
+        self.colours = place;
+        self
+    }
+
+    /// The same with the gaps of this place for a line, so that lines of one colour differ.
+    #[must_use]
+    pub fn dashed(mut self, colour: usize, dash: usize) -> Self {
+        self.dash = Some(dash);
+        self.coloured(colour)
+    }
+
+    /// Shows the numbers along the x axis in a unit of which a shown number is this many SI ones.
+    #[must_use]
+    pub fn x_factor(mut self, factor: f64) -> Self {
+        self.x_factor = Some(factor);
+        self
+    }
+
     /// Adds points. A series without a name is not in the legend.
     #[must_use]
     pub fn points(mut self, name: &str, points: &[[f64; 2]]) -> Self {
@@ -160,11 +187,18 @@ impl Chart {
         self.error_bars(name, points, errors, ("#000000", MarkerShape::Circle))
     }
 
+    /// Adds published values, black as measured ones are, large enough to be seen behind others.
+    #[must_use]
+    pub fn published(self, name: &str, points: &[[f64; 2]]) -> Self {
+        self.scatter(name, finite(points), ("#000000", MarkerShape::Circle), [6.0; 2], None)
+    }
+
     /// Adds a line through points in their order.
     #[must_use]
     pub fn line(mut self, name: &str, points: &[[f64; 2]]) -> Self {
         let (colour, place) = self.next();
-        let dashes = Some(DASHES[place % DASHES.len()].to_owned()).filter(|dashes| !dashes.is_empty());
+        let dash = self.dash.take().unwrap_or(place);
+        let dashes = Some(DASHES[dash % DASHES.len()].to_owned()).filter(|dashes| !dashes.is_empty());
         let style = dashes.clone().map_or(LineStyle::Solid, LineStyle::Custom);
         let entry = legend_entry(name, colour, LegendShape::Line);
         self.legend.extend(entry.map(|entry| LegendEntry { dasharray: dashes, ..entry }));
@@ -193,13 +227,33 @@ impl Chart {
     /// Adds the bars of a histogram between `edges`, one more than `heights`; after another series as an outline.
     #[must_use]
     pub fn histogram(mut self, name: &str, edges: &[f64], heights: &[f64]) -> Self {
-        if self.colours > 0 {
+        if self.plots.iter().any(|plot| matches!(plot, Plot::Histogram(_))) {
             return self.stairs(name, edges, heights);
         }
         if edges.iter().any(|edge| drawable(*edge).is_none()) {
             return self;
         }
         let (colour, _) = self.next();
+        self.area(name, colour, edges, heights)
+    }
+
+    /// Adds the bars of several histograms in these colours, each on top of those before it.
+    #[must_use]
+    pub fn stacked(self, edges: &[f64], series: &[(&str, &str, &[f64])]) -> Self {
+        let mut sums = vec![0.0; edges.len().saturating_sub(1)];
+        let mut tops = Vec::new();
+        for (name, colour, heights) in series {
+            sums.iter_mut().zip(*heights).for_each(|(sum, height)| *sum += height);
+            tops.push((name, colour, sums.clone()));
+        }
+        // The highest first, behind the others.
+        tops.into_iter()
+            .rev()
+            .fold(self, |chart, (name, colour, tops)| chart.area(name, colour, edges, &tops))
+    }
+
+    /// Adds bars between `edges`.
+    fn area(mut self, name: &str, colour: &str, edges: &[f64], heights: &[f64]) -> Self {
         self.legend.extend(legend_entry(name, colour, LegendShape::Rect));
         if let (None, [low, .., high]) = (self.x_range, edges) {
             self.x_range = ends(*low, *high);
@@ -265,6 +319,10 @@ impl Chart {
         }
         if self.log[1] {
             layout = layout.with_log_y();
+        }
+        layout = layout.with_tick_format(tick_format(1.0));
+        if let Some(factor) = self.x_factor {
+            layout = layout.with_x_tick_format(tick_format(factor));
         }
         let lines = self.lines.into_iter().map(|line| line.with_color("#444444"));
         layout = lines.fold(layout, Layout::with_reference_line);

@@ -138,7 +138,7 @@ fn tick_text(value: f64, step: f64) -> String {
 /// The colour of a regime; by Okabe and Ito, in shades that differ in black and white, too.
 pub(in crate::report) fn regime_colour(regime: Regime) -> &'static str {
     match regime {
-        Regime::NspNsw => "#e3e3e3",
+        Regime::NspNsw => "#d0d0d0",
         Regime::NspSw => "#56b4e9",
         Regime::SpNsw => "#f0e442",
         Regime::SpSw => "#d55e00",

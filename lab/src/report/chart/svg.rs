@@ -4,8 +4,6 @@ use kuva::plot::legend::{LegendEntry, LegendPosition};
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
 
-use super::axis::tick_format;
-
 const WIDTH: f64 = 620.0;
 const HEIGHT: f64 = 370.0;
 /// Height of a row of the legend [px].
@@ -40,7 +38,6 @@ impl Figure {
         let layout = layout
             .with_width(width)
             .with_height(height + LEGEND_ROW * rows)
-            .with_tick_format(tick_format())
             .with_legend_position(LegendPosition::OutsideBottomColumns)
             .with_legend_box(false)
             .with_legend_col_limit(columns as usize);

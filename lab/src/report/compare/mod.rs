@@ -9,6 +9,7 @@ use crate::diagnose::comparison::{Comparison, Difference, Interval, ModelErrors,
 struct Shown {
     id: &'static str,
     title: &'static str,
+    axis: &'static str,
     unit: &'static str,
     of: fn(&ModelErrors) -> Option<Interval>,
 }
@@ -17,18 +18,38 @@ const MEASURES: [Shown; 5] = [
     Shown {
         id: "log-likelihood",
         title: "Mean log likelihood, higher is better",
+        axis: "mean log likelihood",
         unit: "nats",
         of: |errors| errors.log_likelihood,
     },
-    Shown { id: "rmse-e-n", title: "Root mean square error of e_n", unit: "1", of: |errors| errors.rmse_e_n },
-    Shown { id: "rmse-e-t", title: "Root mean square error of e_t", unit: "1", of: |errors| errors.rmse_e_t },
+    Shown {
+        id: "rmse-e-n",
+        title: "Root mean square error of e_n",
+        axis: "rms error of e_n",
+        unit: "1",
+        of: |errors| errors.rmse_e_n,
+    },
+    Shown {
+        id: "rmse-e-t",
+        title: "Root mean square error of e_t",
+        axis: "rms error of e_t",
+        unit: "1",
+        of: |errors| errors.rmse_e_t,
+    },
     Shown {
         id: "rmse-share",
         title: "Root mean square error of the other readings",
+        axis: "rms error of the other readings",
         unit: "1",
         of: |errors| errors.rmse_share,
     },
-    Shown { id: "log-loss", title: "Log loss of capture", unit: "nats", of: |errors| errors.log_loss_stick },
+    Shown {
+        id: "log-loss",
+        title: "Log loss of capture",
+        axis: "log loss of an impact",
+        unit: "nats",
+        of: |errors| errors.log_loss_stick,
+    },
 ];
 
 /// What every reader of the numbers has to know.
@@ -186,8 +207,11 @@ fn figure(comparison: &Comparison, measure: &Shown) -> Option<Figure> {
         ((one.value - low).max(0.0), (high - one.value).max(0.0))
     });
     let words: Vec<String> = models.iter().map(|(name, _)| name.clone()).collect();
-    let chart =
-        Chart::new(measure.title, "model, in the order of the ranking", &format!("[{}]", measure.unit));
+    let chart = Chart::new(
+        measure.title,
+        "model, in the order of the ranking",
+        &format!("{} [{}]", measure.axis, measure.unit),
+    );
     let chart = chart.words(&words).points_with_errors("", &points, &bars.collect());
     let caption = "With 95 % intervals. They overlap more than those of the differences in the table, which are paired.";
     Some(chart.figure(measure.id, caption))

@@ -1,8 +1,11 @@
 //! Columns as x axes: numbers on a linear or logarithmic axis, words side by side.
 
 use super::super::chart::Chart;
-use super::super::format::{number, with_unit};
+use super::super::format::{shown_unit, span, with_unit};
 use crate::diagnose::{Sample, SampleRow};
+use crate::rig::name_of;
+use nearwall::group::GROUPS;
+use nearwall::impact::INPUTS;
 
 /// Up to this many values of a column each has a mean of its own, if it has so many rows on average.
 pub(super) const DISTINCT: usize = 12;
@@ -89,7 +92,7 @@ impl<'a> ColumnAxis<'a> {
                 format!("= {}", label.map_or("", |label| &labels[label]))
             }
             Scale::Numbers { .. } if low == high => format!("= {}", with_unit(low, self.unit)),
-            Scale::Numbers { .. } => format!("from {} to {}", number(low), with_unit(high, self.unit)),
+            Scale::Numbers { .. } => format!("from {}", span([low, high], self.unit)),
         }
     }
 
@@ -102,10 +105,23 @@ impl<'a> ColumnAxis<'a> {
         }
     }
 
+    /// The name of the column; of an input, a group or a number of a case with its meaning.
+    fn words(&self) -> String {
+        let input = INPUTS.iter().find(|input| input.name == self.name).map(|input| input.words().to_owned());
+        let group = || GROUPS.iter().find(|group| group.name == self.name);
+        // What follows a comma or a colon is an explanation.
+        let group = || Some(group()?.words.split([',', ':']).next()?.to_owned());
+        let is_of_case = ["gas.", "particles.", "walls."].iter().any(|table| self.name.starts_with(table));
+        let number = || is_of_case.then(|| name_of(self.name));
+        let words = input.or_else(group).or_else(number);
+        words.map_or_else(|| self.name.to_owned(), |words| format!("{words}, {}", self.name))
+    }
+
     /// An empty chart over this column.
     pub fn chart(&self, title: &str, y_label: &str) -> Chart {
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        let chart = Chart::new(title, &format!("{}{unit}", self.name), y_label);
+        let (factor, unit) = shown_unit(self.unit, self.ends().map_or(f64::INFINITY, |[_, high]| high));
+        let unit = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+        let chart = Chart::new(title, &format!("{}{unit}", self.words()), y_label).x_factor(factor);
         match &self.scale {
             Scale::Words { labels, .. } => chart.words(labels),
             Scale::Numbers { log: true, .. } => chart.log_x(),

@@ -7,7 +7,7 @@ use crate::map::{InputAxis, Map};
 use crate::report::chart::{
     ColourScale, Figure, LabelledAxis, NO_VALUE, PlanePicture, hatching, round_edges, swatch,
 };
-use crate::report::format::number;
+use crate::report::format::{number, shown_unit};
 use nearwall::impact::Regime;
 
 /// Width of the drawing, and size of its plot [px].
@@ -158,12 +158,21 @@ fn labelled(axis: &InputAxis) -> LabelledAxis {
     (label(axis), ticks_of(axis).into_iter().map(place).collect())
 }
 
-/// The name of an axis for a reader, with its unit.
-fn label(axis: &InputAxis) -> String {
+/// The name of an input for a reader.
+pub(super) fn name(axis: &InputAxis) -> String {
     let input = axis.input();
-    let about = input.about.split(" [").next().unwrap_or_default();
+    format!("{}, {}", input.words(), input.name)
+}
+
+/// The same with its unit, for an axis.
+fn label(axis: &InputAxis) -> String {
     let spacing = if axis.is_logarithmic() { ", logarithmic" } else { "" };
-    format!("{about}, {} [{}]{spacing}", input.name, input.unit)
+    format!("{} [{}]{spacing}", name(axis), shown(axis).1)
+}
+
+/// How the values of an axis are shown: a factor and the name of the unit.
+fn shown(axis: &InputAxis) -> (f64, String) {
+    shown_unit(axis.input().unit, axis.ends()[1])
 }
 
 /// A number without the rounding errors of zero.
@@ -173,7 +182,7 @@ fn short(value: f64) -> String {
 
 /// Ticks of an axis: the share of its length, and the number; no number at minor ticks.
 fn ticks_of(axis: &InputAxis) -> Vec<(f64, String)> {
-    let [low, high] = axis.ends();
+    let [low, high] = axis.ends().map(|end| shown(axis).0 * end);
     let tolerance = 1e-9 * (high - low);
     if !axis.is_logarithmic() {
         let inside = |value: &f64| (low - tolerance..=high + tolerance).contains(value);

@@ -35,19 +35,23 @@ fn each<'a>(
     })
 }
 
+/// What the classes of speeds and diameters are.
+const CLASSES: &str = "Eight classes a decade. Each arrival of a parcel that rebounds counts.";
+
 fn distribution(comparison: &RunComparison<'_>, index: usize, quantity: ClassQuantity) -> Option<Figure> {
     let wall = &comparison.walls[index];
     let (name, what, x_label) = match quantity {
         ClassQuantity::Speed => ("speed", "Impact speed", "speed relative to the wall [m/s]"),
         ClassQuantity::Angle => ("angle", "Impact angle", "angle from the wall [°]"),
-        ClassQuantity::Diameter => ("size", "Size", "diameter [m]"),
+        ClassQuantity::Diameter => ("size", "Size", "diameter [µm]"),
     };
     let mut chart = Chart::new(&format!("{what} at {wall}"), x_label, "mass in a class [% of what arrives]");
     let mut any = false;
     for (label, classes) in each(comparison, wall) {
         let classes = together(classes, quantity);
         let all: f64 = classes.iter().map(|class| class.sums.mass).sum();
-        let mut captured = |name: &str, mass: fn(&ClassSums) -> f64, chart: Chart| {
+        let colour = comparison.colour(label, wall);
+        let mut captured = |name: &str, dash: usize, mass: fn(&ClassSums) -> f64, chart: Chart| {
             let heights: Vec<f64> =
                 classes.iter().map(|class| 100.0 * share(mass(&class.sums), all)).collect();
             if !heights.iter().any(|height| *height > 0.0) {
@@ -55,17 +59,18 @@ fn distribution(comparison: &RunComparison<'_>, index: usize, quantity: ClassQua
             }
             any = true;
             let (edges, heights) = filled(&classes, &heights);
-            chart.stairs(name, &edges, &heights)
+            chart.dashed(colour, dash).stairs(name, &edges, &heights)
         };
-        chart = captured(label, |sums| sums.mass, chart);
-        chart = captured(&format!("{label}, captured"), |sums| sums.captured_mass, chart);
+        chart = captured(label, 0, |sums| sums.mass, chart);
+        chart = captured(&format!("{label}, captured"), 1, |sums| sums.captured_mass, chart);
     }
     let (chart, caption) = match quantity {
         ClassQuantity::Angle => (
             chart.x_range(0.0, 90.0),
             "Classes of 5°; 0° is grazing, 90° is head-on. Each arrival of a parcel counts.",
         ),
-        _ => (chart.log_x(), "Eight classes a decade. Each arrival of a parcel that rebounds counts."),
+        ClassQuantity::Diameter => (chart.log_x().x_factor(1e6), CLASSES),
+        ClassQuantity::Speed => (chart.log_x(), CLASSES),
     };
     any.then(|| chart.figure(&format!("{name}-{index}"), caption))
 }
@@ -73,7 +78,7 @@ fn distribution(comparison: &RunComparison<'_>, index: usize, quantity: ClassQua
 fn capture(comparison: &RunComparison<'_>, index: usize) -> Option<Figure> {
     let wall = &comparison.walls[index];
     let title = format!("Captured by size at {wall}");
-    let mut chart = Chart::new(&title, "diameter [m]", "captured of the arriving particles [%]");
+    let mut chart = Chart::new(&title, "diameter [µm]", "captured of the arriving particles [%]");
     let mut any = false;
     for (label, classes) in each(comparison, wall) {
         let (mut points, mut errors) = (Vec::new(), Vec::new());
@@ -85,11 +90,12 @@ fn capture(comparison: &RunComparison<'_>, index: usize) -> Option<Figure> {
                 any |= share > 0.0;
             }
         }
-        chart = chart.points_with_errors(label, &points, &errors);
+        let colour = comparison.colour(label, wall);
+        chart = chart.coloured(colour).points_with_errors(label, &points, &errors);
     }
     let caption = "Captured share of the particles in each class, with its 95 % interval. The interval allows for parcels \
                    of unequal weight.";
-    any.then(|| chart.log_x().y_range(0.0, 100.0).figure(&format!("capture-{index}"), caption))
+    any.then(|| chart.log_x().x_factor(1e6).y_range(0.0, 100.0).figure(&format!("capture-{index}"), caption))
 }
 
 fn energy(comparison: &RunComparison<'_>, walls: &[String]) -> Figure {

@@ -1,6 +1,7 @@
 //! What is captured: by wall, regime and size, and over time.
 
 use super::{RunComparison, RunResults, number, percent, spread};
+use crate::report::chart::regime_colour;
 use crate::report::format::REGIME_NAMES;
 use crate::report::{BarChart, Chart, Figure, Table, round_edges};
 use crate::results::{WallTotals, range, share};
@@ -80,7 +81,7 @@ fn stacked(
         };
         let parts: Vec<f64> = comparison.walls.iter().map(part).collect();
         any |= parts.iter().any(|part| *part > 0.0);
-        bars = bars.series(regime.name(), &parts);
+        bars = bars.coloured(regime.name(), regime_colour(regime), &parts);
     }
     any.then_some(bars)
 }

@@ -14,6 +14,8 @@ struct OverTime {
     id: &'static str,
     title: &'static str,
     y_label: &'static str,
+    /// Drawn values over those of the columns.
+    factor: f64,
     columns: [&'static str; 2],
     /// Drawn even where it does not change.
     always: bool,
@@ -25,6 +27,7 @@ const OVER_TIME: [OverTime; 4] = [
         id: "wall-coverage",
         title: "Share of the wall covered by powder",
         y_label: "coverage [1]",
+        factor: 1.0,
         columns: ["coverage_mean", "coverage_max"],
         always: true,
         caption: "Mean over the area of the wall, and the face or bin with the largest coverage. Covered area is not \
@@ -33,7 +36,8 @@ const OVER_TIME: [OverTime; 4] = [
     OverTime {
         id: "wall-layer",
         title: "Powder on the wall",
-        y_label: "thickness of the layer [m]",
+        y_label: "thickness of the layer [µm]",
+        factor: 1e6,
         columns: ["layer_thickness_mean_m", "layer_thickness_max_m"],
         always: true,
         caption: "Mean over the area of the wall, and the thickest face or bin, with the powder spread evenly on it. \
@@ -43,6 +47,7 @@ const OVER_TIME: [OverTime; 4] = [
         id: "wall-temperature",
         title: "Surface of the deposit",
         y_label: "temperature [K]",
+        factor: 1.0,
         columns: ["wall_temperature_mean_K", "wall_temperature_max_K"],
         always: false,
         caption: "Mean over the area of the wall, and the hottest face or bin: what impacts meet.",
@@ -50,7 +55,8 @@ const OVER_TIME: [OverTime; 4] = [
     OverTime {
         id: "wall-heat-flux",
         title: "Heat through the wall",
-        y_label: "heat flux [W/m²]",
+        y_label: "heat flux [kW/m²]",
+        factor: 1e-3,
         columns: ["heat_flux_mean_W_m2", "heat_flux_max_W_m2"],
         always: false,
         caption: "Into the coolant; mean over the area of the wall, and the face or bin with the largest flux.",
@@ -75,23 +81,32 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     if walls.is_empty() {
         return figures;
     }
-    let over_time = |title: &str, y_label: &str, [mean, most]: [&str; 2]| {
+    let over_time = |title: &str, y_label: &str, factor: f64, [mean, most]: [&str; 2]| {
         let chart = Chart::new(title, "time [s]", y_label);
         walls.iter().fold(chart, |chart, (label, wall)| {
             let name = if single { wall.wall.clone() } else { format!("{label}: {}", wall.wall) };
+            let colour = comparison.colour(label, &wall.wall);
+            // Several walls of one case have one colour and other gaps.
+            let dash = if single {
+                0
+            } else {
+                2 * comparison.walls.iter().position(|one| *one == wall.wall).unwrap_or(0)
+            };
+            let scaled =
+                |column: &str| line(wall, column).into_iter().map(|[time, value]| [time, factor * value]);
             chart
-                .line(&format!("{name}, mean"), &line(wall, mean))
-                .line(&format!("{name}, maximum"), &line(wall, most))
+                .dashed(colour, dash)
+                .line(&format!("{name}, mean"), &scaled(mean).collect::<Vec<_>>())
+                .dashed(colour, dash + 1)
+                .line(&format!("{name}, maximum"), &scaled(most).collect::<Vec<_>>())
         })
     };
     let drawn = OVER_TIME
         .iter()
         .filter(|drawn| drawn.always || walls.iter().any(|(_, wall)| changes(wall, drawn.columns[0])));
-    figures.extend(
-        drawn.map(|drawn| {
-            over_time(drawn.title, drawn.y_label, drawn.columns).figure(drawn.id, drawn.caption)
-        }),
-    );
+    figures.extend(drawn.map(|drawn| {
+        over_time(drawn.title, drawn.y_label, drawn.factor, drawn.columns).figure(drawn.id, drawn.caption)
+    }));
     figures
 }
 

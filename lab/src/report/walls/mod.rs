@@ -323,6 +323,12 @@ impl<'a> RunComparison<'a> {
         self.labels.iter().zip(self.runs)
     }
 
+    /// The place of the colour of a wall of a single run, or of one of several runs.
+    fn colour(&self, label: &str, wall: &str) -> usize {
+        let (names, own) = if self.is_single() { (&self.walls, wall) } else { (&self.labels, label) };
+        names.iter().position(|name| name == own).unwrap_or(0)
+    }
+
     fn totals(&self, run: &'a RunResults, wall: &str) -> Option<&'a WallTotals> {
         run.totals(wall, self.time)
     }
@@ -352,11 +358,11 @@ impl<'a> RunComparison<'a> {
         heights: impl Fn(&Series<'_>) -> Option<Vec<f64>>,
     ) -> Vec<Figure> {
         let mut any = false;
-        for series in self.series() {
+        for (place, series) in self.series().into_iter().enumerate() {
             if let Some(heights) =
                 heights(&series).filter(|heights| heights.iter().any(|height| *height > 0.0))
             {
-                chart = chart.histogram(series.label, edges, &heights);
+                chart = chart.coloured(place).histogram(series.label, edges, &heights);
                 any = true;
             }
         }

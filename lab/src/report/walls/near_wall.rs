@@ -1,6 +1,7 @@
 //! How long particles stay near the walls, and how densely: the dense-dispersed phase of Troiano et al.
 
 use super::{RunComparison, RunResults, number, spread};
+use crate::report::format::with_unit;
 use crate::report::{BarChart, Figure, Table};
 use crate::results::NearWall;
 
@@ -37,9 +38,9 @@ pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
         comparison.runs.iter().flat_map(|run| &run.walls).filter_map(|wall| wall.at(comparison.time));
     let distance = distances.filter_map(|totals| totals.near_wall).map(|near| near.distance).next()?;
     let caption = format!(
-        "A particle is near a wall while the gap between them is at most {} m (run.near_wall_distance). Residence time: \
+        "A particle is near a wall while the gap between them is at most {} (run.near_wall_distance). Residence time: \
          mean ± standard deviation over the particles that come near, of all their stays in flight.",
-        number(distance)
+        with_unit(distance, "m")
     );
     comparison.wall_table(
         &caption,

@@ -2,7 +2,7 @@
 
 use super::captured::heights;
 use super::{RunComparison, identifier};
-use crate::report::chart::{ColourScale, PlanePicture};
+use crate::report::chart::{ColourScale, PlanePicture, regime_colour};
 use crate::report::format::REGIME_NAMES;
 use crate::report::{Chart, Figure, round_edges};
 use crate::results::{Capture, Grid, RunResults, WallMap, range, share};
@@ -31,22 +31,19 @@ fn along_pipe(comparison: &RunComparison<'_>, run: &RunResults) -> Vec<Figure> {
     let Some(pipe) = &run.pipe else { return Vec::new() };
     let edges = round_edges(pipe.range[0], pipe.range[1], AXIS_BINS);
     let title = "Captured mass along the pipe";
-    let mut chart = Chart::new(title, "along the pipe, z [m]", "captured mass [% of injected]");
     let on_pipe = |capture: &&Capture| capture.wall.is_some_and(|wall| pipe.walls.contains(&wall));
     let sums = Regime::ALL.map(|regime| {
         let own = run.captures.iter().filter(on_pipe).filter(|capture| capture.regime == Some(regime));
         heights(&edges, own.map(|capture| (capture.position[2], capture.mass)), comparison.injected(run))
     });
-    // The largest is drawn as area, the others as lines over it.
-    let mut order = Regime::ALL;
-    let total = |regime: &Regime| sums[*regime as usize].iter().sum::<f64>();
-    order.sort_by(|a, b| total(b).total_cmp(&total(a)));
-    if total(&order[0]) <= 0.0 {
+    let of = |regime: Regime| (regime.name(), regime_colour(regime), sums[regime as usize].as_slice());
+    let series: Vec<(&str, &str, &[f64])> =
+        Regime::ALL.map(of).into_iter().filter(|(_, _, heights)| heights.iter().sum::<f64>() > 0.0).collect();
+    if series.is_empty() {
         return Vec::new();
     }
-    for regime in order.iter().filter(|regime| total(regime) > 0.0) {
-        chart = chart.histogram(regime.name(), &edges, &sums[*regime as usize]);
-    }
+    let chart =
+        Chart::new(title, "along the pipe, z [m]", "captured mass [% of injected]").stacked(&edges, &series);
     let chart = pipe.marks.iter().fold(chart, |chart, (begin, name)| chart.mark_x(*begin, name));
     vec![chart.figure("along", &format!("By regime. {REGIME_NAMES}"))]
 }
@@ -62,12 +59,12 @@ fn along_axis(comparison: &RunComparison<'_>) -> Vec<Figure> {
     let name = AXES[axis];
     let title = format!("Captured mass along {name}, at the last written time");
     let mut chart = Chart::new(&title, &format!("{name} [m]"), "mass [% of injected]");
-    for (label, run) in comparison.each() {
+    for (place_of_run, (label, run)) in comparison.each().enumerate() {
         let injected = run.injected.last().map_or(f64::NAN, |[_, mass]| *mass);
         let heights =
             heights(&edges, run.captures.iter().map(|capture| (place(capture), capture.mass)), injected);
         if heights.iter().any(|height| *height > 0.0) {
-            chart = chart.histogram(label, &edges, &heights);
+            chart = chart.coloured(place_of_run).histogram(label, &edges, &heights);
         }
     }
     let fates: Vec<String> = comparison.each().filter_map(|(label, run)| fate(label, run)).collect();

@@ -11,7 +11,8 @@ use crate::simulate::{Case, Sweep, sweep_unit};
 
 /// How the figures label the swept quantity and show its values.
 struct SweepAxis {
-    label: String,
+    words: String,
+    unit: &'static str,
     shown: fn(f64) -> f64,
 }
 
@@ -19,10 +20,21 @@ impl SweepAxis {
     fn of(key: &str) -> Self {
         let words = key.trim_end_matches("_deg").replace("_", " ");
         match sweep_unit(key) {
-            "K" => Self { label: format!("{words} [°C]"), shown: |value| value - 273.15 },
-            "m" => Self { label: format!("{words} [µm]"), shown: |value| 1e6 * value },
-            unit => Self { label: format!("{words} [{unit}]"), shown: |value| value },
+            "K" => Self { words, unit: "°C", shown: |value| value - 273.15 },
+            "m" => Self { words, unit: "µm", shown: |value| 1e6 * value },
+            unit => Self { words, unit, shown: |value| value },
         }
+    }
+
+    /// The label of an axis or a column.
+    fn label(&self) -> String {
+        format!("{} [{}]", self.words, self.unit)
+    }
+
+    /// The value of a run in words: "temperature = 50 °C".
+    fn at(&self, run: &Run) -> String {
+        let unit = if self.unit == "1" { String::new() } else { format!(" {}", self.unit) };
+        format!("{} = {}{unit}", self.words, number(self.value(run)))
     }
 
     fn value(&self, run: &Run) -> f64 {
@@ -40,7 +52,7 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     if let Some(run) = most {
         let totals = &run.totals;
         let text = later_captures(totals.first_hits(), totals.ends.captured.count, totals.has_carbon);
-        page.text(format!("At {} = {}: {text}", axis.label, number(axis.value(run))));
+        page.text(format!("At {}: {text}", axis.at(run)));
     }
     for reference in &sweep.references {
         page.note(format!("{}: {}", reference.quantity, reference.source));
@@ -50,8 +62,7 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     }
     let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
     if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {
-        let heading = format!("Where particles are captured at {} = {}", axis.label, number(axis.value(run)));
-        page.heading(heading);
+        page.heading(format!("Where particles are captured at {}", axis.at(run)));
         page.figures(map_figures(&run.results(case)));
     }
 }
@@ -72,7 +83,7 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         errors.push((part - low, high - part));
         every.push([axis.value(run), 100.0 * captured_mass(&run.totals)]);
     }
-    let chart = Chart::new("Capture", &axis.label, "captured [%]");
+    let chart = Chart::new("Capture", &axis.label(), "captured [%]");
     let chart = with_band(chart, axis, runs);
     let chart = with_references(chart, axis, sweep, "capture", 100.0)
         .points_with_errors("first hits", &first, &errors)
@@ -112,7 +123,7 @@ fn restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         errors.push((1.96 * error, 1.96 * error));
         rebounds.push([axis.value(run), merged(run, |wall| &wall.e_n).0]);
     }
-    let chart = Chart::new("Normal restitution", &axis.label, "e_n [1]");
+    let chart = Chart::new("Normal restitution", &axis.label(), "e_n [1]");
     let chart = with_references(chart, axis, sweep, "e_n", 1.0)
         .points_with_errors("first hits, captured = 0", &points, &errors)
         .line("rebounds, all hits", &rebounds);
@@ -129,7 +140,7 @@ fn with_references(mut chart: Chart, axis: &SweepAxis, sweep: &Sweep, quantity: 
         let points: Vec<[f64; 2]> = at.zip(&reference.value).map(|(x, y)| [x, scale * y]).collect();
         // The first words of the source, up to a comma or colon.
         let name = reference.source.split([',', ':', ';']).next().unwrap_or(&reference.source);
-        chart = chart.reference(name, &points);
+        chart = chart.published(name, &points);
     }
     chart
 }
@@ -152,9 +163,10 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         let [part, low, high] = first_capture(&run.totals).map(|part| percent(0.01 * part));
         format!("{part} ({low} to {high})")
     };
+    let label = axis.label();
     let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| number(merged(run, of).0);
     let columns: [TableColumn<'_, Run>; 9] = [
-        (&axis.label, &|run| number(axis.value(run))),
+        (&label, &|run| number(axis.value(run))),
         ("first hits", &|run| run.totals.first_hits()[0].to_string()),
         ("captured", &|run| run.totals.first_hits()[1].to_string()),
         ("captured at first hit (95 %)", &first),
@@ -162,7 +174,7 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
         ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
         ("speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
-        ("mass balance", &|run| format!("{:.1e}", run.totals.ends.balance_error())),
+        ("mass balance", &|run| number(run.totals.ends.balance_error())),
     ];
     Table::of_items("", 0, runs, &columns)
 }
