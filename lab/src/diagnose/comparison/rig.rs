@@ -41,7 +41,7 @@ pub enum RigComparisonError {
         /// The model file.
         model: String,
         /// The reason.
-        error: PredictionError,
+        error: Box<PredictionError>,
     },
 }
 
@@ -67,7 +67,7 @@ pub fn compare_rig(
         let cases = case.clone().with_model(model.clone()).and_then(|text| RigCase::all(&text, data));
         let cases =
             cases.map_err(|error| RigComparisonError::Setting { model: name(), error: Box::new(error) })?;
-        let of_model = |error| RigComparisonError::Prediction { model: name(), error };
+        let of_model = |error| RigComparisonError::Prediction { model: name(), error: Box::new(error) };
         let forward = SimulatedRig::new(&cases).map_err(of_model)?;
         let (readings, predicted) = match first.take() {
             Some(readings) => (readings, predictions(&forward).map_err(of_model)?),
