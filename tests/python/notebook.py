@@ -63,7 +63,8 @@ def superheater():
 
 
 def tokamak():
-    assert re.match(r"measure first: \w.* \(\S+ to \S+", printed()), printed()
+    # Properties of metals hardly change within 50 K of 300 K: no temperature decides.
+    assert re.match(r"measure first: (?!temperature)\w.* \(\S+ to \S+", printed()), printed()
     return printed().strip()
 
 

@@ -245,7 +245,10 @@ class Sensitivity(Page):
         """Draws the captured share of a wall, by default the first, at both ends of the range of each number."""
         ax = ax or axes()
         pairs = [(number, next(one for one in number["walls"] if wall in (None, one["wall"]))) for number in self.record["numbers"]]
-        pairs = sorted((pair for pair in pairs if pair[1]["change"] > 0), key=lambda pair: -float(pair[1]["change"]))[:most]
+        # A hundredth of the largest change is nothing that can be seen.
+        least = 0.01 * max((float(one["change"]) for _, one in pairs), default=0.0)
+        pairs = [pair for pair in pairs if pair[1]["change"] > 0 and pair[1]["change"] >= least]
+        pairs = sorted(pairs, key=lambda pair: -float(pair[1]["change"]))[:most]
         for place, (_, one) in enumerate(pairs):
             for end, colour, shift in (("low", "#0072B2", -0.2), ("high", "#D55E00", 0.2)):
                 ax.barh(place + shift, one[f"captured_{end}"] - one["captured"], 0.4, left=one["captured"], color=colour,

@@ -3,7 +3,7 @@
 use super::chart::{TornadoRow, tornado};
 use super::format::{shown_unit, span, with_unit};
 use super::{Figure, Page, RowStatus, Table, number, percent};
-use crate::rig::sensitivity::{NumberEffect, Quality, Scale, Sensitivity, WallEffect};
+use crate::rig::sensitivity::{NumberEffect, NumberScale, Quality, Sensitivity, WallEffect};
 
 /// Numbers in a figure and in the table.
 const SHOWN_NUMBERS: usize = 15;
@@ -87,9 +87,9 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
 /// How value and ends of a number are shown: a factor, and the unit.
 fn shown(effect: &NumberEffect) -> (f64, String) {
     match effect.scale {
-        Scale::Value => shown_unit(effect.unit, effect.high),
-        Scale::Factor => (1.0, "×".to_owned()),
-        Scale::Difference => (1.0, format!("+ {}", effect.unit)),
+        NumberScale::Value => shown_unit(effect.unit, effect.high),
+        NumberScale::Factor => (1.0, "×".to_owned()),
+        NumberScale::Difference => (1.0, format!("+ {}", effect.unit)),
     }
 }
 
@@ -97,9 +97,9 @@ fn shown(effect: &NumberEffect) -> (f64, String) {
 fn named(effect: &NumberEffect) -> String {
     let ends = [effect.low, effect.high];
     let range = match effect.scale {
-        Scale::Value => span(ends, effect.unit),
-        Scale::Factor => format!("× {}, all values", span(ends, "")),
-        Scale::Difference => format!("{}, added to all values", span(ends, effect.unit)),
+        NumberScale::Value => span(ends, effect.unit),
+        NumberScale::Factor => format!("× {}, all values", span(ends, "")),
+        NumberScale::Difference => format!("{}, added to all values", span(ends, effect.unit)),
     };
     format!("{}: {range}", effect.name)
 }
@@ -129,8 +129,8 @@ fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
 /// Both ends of a number in words.
 fn ends(effect: &NumberEffect) -> [String; 2] {
     [effect.low, effect.high].map(|end| match effect.scale {
-        Scale::Value => format!("{} {}", effect.name, with_unit(end, effect.unit)),
-        Scale::Factor => format!("{} × {}", effect.name, number(end)),
-        Scale::Difference => format!("{} + {}", effect.name, with_unit(end, effect.unit)),
+        NumberScale::Value => format!("{} {}", effect.name, with_unit(end, effect.unit)),
+        NumberScale::Factor => format!("{} × {}", effect.name, number(end)),
+        NumberScale::Difference => format!("{} + {}", effect.name, with_unit(end, effect.unit)),
     })
 }

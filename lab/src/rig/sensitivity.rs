@@ -109,7 +109,7 @@ impl Move {
 /// What the value and the ends of a number are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Scale {
+pub enum NumberScale {
     /// Values in its unit.
     Value,
     /// Factors on all values of a table, polynomial or list.
@@ -118,7 +118,7 @@ pub enum Scale {
     Difference,
 }
 
-impl Scale {
+impl NumberScale {
     /// Its name in files.
     fn name(self) -> &'static str {
         match self {
@@ -160,11 +160,11 @@ struct Number {
 
 impl Number {
     /// What its value and its ends are.
-    fn scale(&self) -> Scale {
+    fn scale(&self) -> NumberScale {
         match (self.value, self.how) {
-            (Some(_), _) => Scale::Value,
-            (None, Move::Difference(_)) => Scale::Difference,
-            (None, _) => Scale::Factor,
+            (Some(_), _) => NumberScale::Value,
+            (None, Move::Difference(_)) => NumberScale::Difference,
+            (None, _) => NumberScale::Factor,
         }
     }
 
@@ -202,7 +202,7 @@ pub struct NumberEffect {
     /// Its unit: "1" for none, "" where it is not known.
     pub unit: &'static str,
     /// What value and ends are.
-    pub scale: Scale,
+    pub scale: NumberScale,
     /// Its value; for a table, polynomial or list the factor 1 or the difference 0 of all its values.
     pub value: f64,
     /// The low end of its range; for a table a factor or a difference.
