@@ -76,7 +76,7 @@ fn a_set_of_ones_own_is_scored() {
     refused(folder.path(), &["bench", "--data", "."], &["sub-folder", "data.csv, base.toml"]);
 }
 
-/// Two sources with an ash above its flow temperature, which sticks, and below its deformation temperature, which does
+/// Two sources with an ash above its flow temperature, which sticks, and a cold one, which does
 /// not: only the hot ones are a matter of a melt, and the law of fusion is right about them.
 #[test]
 fn a_law_of_capture_is_scored_where_a_melt_may_matter() {
@@ -88,7 +88,7 @@ fn a_law_of_capture_is_scored_where_a_melt_may_matter() {
         let set = folder.path().join("sets").join(source);
         std::fs::create_dir_all(&set).unwrap();
         std::fs::write(set.join("base.toml"), ash).unwrap();
-        let rows = "5,1e-4,1500,1\n6,1e-4,1600,1\n5,1e-4,1000,0\n6,1e-4,1100,0\n";
+        let rows = "5,1e-4,1500,1\n6,1e-4,1600,1\n5,1e-4,300,0\n6,1e-4,400,0\n";
         std::fs::write(set.join("data.csv"), format!("v_n,d,T_p,capture_efficiency\n{rows}")).unwrap();
     }
     let fusion = |text: &str| -> Vec<f64> {
