@@ -130,7 +130,10 @@ model = "viscosity"
 law = "kalmanovitch-frank"
 reference_viscosity = 1e4'
 
-# What falls from a wall, as the superheater has it
+# Without the viscosity of its melt
+dry_ash="${ash_on_steel%\[capture\]*}"
+
+# All falls off that gravity can pull
 falls='
 [walls.default.shedding]
 tensile_strength = 1e-6
@@ -201,7 +204,7 @@ case_user-mixer() {
     merged_in constant/kinematicCloudProperties 'subModels { injectionModels { model1 { U0 (3 1.5 0); } } collisionModel none; }'
     merged_in system/decomposeParDict 'constraints { interface { type singleProcessorFaceSets; sets ((interface 0)); } }'
     { header dictionary topoSetDict; echo 'actions ( { name interface; type faceSet; action new; source patchToFace; patch "AMI.*"; } );'; } > system/topoSetDict
-    user_cloud kinematicCloud "model #{ $ash_on_steel $sticky #}; particleTemperature 300; memory { acceleration 100; }
+    user_cloud kinematicCloud "model #{ $dry_ash $sticky #}; particleTemperature 300; memory { acceleration 100; }
         patches { \"AMI.*\" { type none; } }"
     tolerance=1e-3      # OpenFOAM restarts the sliding interface to some 5e-4 of the velocity of parcels that cross it
     user_time 1e-4 40
@@ -220,7 +223,7 @@ case_user-coal() {
     draws=yes returns=yes
     user_cloud coalCloud1 "model #{ $ash_on_steel $falls #}; stuck remove; memory { shed { parcels yes; } }
         patches { symmetry { type rebound; } }"
-    user_cloud limestoneCloud1 "model #{ $ash_on_steel $sticky $falls #}; stuck remove; memory { acceleration 1000; shed { parcels yes; } }
+    user_cloud limestoneCloud1 "model #{ $dry_ash $sticky $falls #}; stuck remove; memory { acceleration 1000; shed { parcels yes; } }
         patches { symmetry { type rebound; } }"
     user_time 1e-4 20
     meshed blockMesh && meshed topoSet && user_runs
@@ -243,7 +246,7 @@ case_user-oxide() {
     edited system/blockMeshDict 's/\(100 40 10\)/(20 6 4)/'
     merged_in constant/reactingCloud1Properties 'subModels { injectionModels { model1 { U0 (3 -30 0); parcelsPerSecond 500; } } }'
     draws=yes react=yes
-    user_cloud reactingCloud1 "model #{ $ash_on_steel $sticky #}; stuck react; memory { }"
+    user_cloud reactingCloud1 "model #{ $dry_ash $sticky #}; stuck react; memory { }"
     user_time 0.01 30
     meshed blockMesh && user_runs
 }
