@@ -526,7 +526,7 @@ void Foam::nearWallInteraction<CloudType>::returnParcels()
 
         const auto& U = this->owner().U().boundaryField()[back.patch];
         parcelType* const p = nearWall::newParcel<parcelType>(mesh, at, celli);
-        cloud->setParcelThermoProperties(*p, step);
+        nearWall::initialise(*cloud, *p, step);
         p->U() = U.fixesValue() ? U[back.face] : vector(Zero);
         p->d() = back.diameter;
         p->rho() = back.density;
@@ -535,7 +535,7 @@ void Foam::nearWallInteraction<CloudType>::returnParcels()
         (
             *p, run_->memory->surfaceTemperature(back.patch, back.face)
         );
-        cloud->checkParcelProperties(*p, step, false);
+        nearWall::complete(*cloud, *p, step);
         nearWall::setComposition(*p, back.parts);
         run_->balance.add(massBalance::stuckRemoved, -p->nParticle()*p->mass());
         cloud->addParticle(p);

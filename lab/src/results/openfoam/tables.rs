@@ -27,18 +27,14 @@ const QUANTITIES: [(&str, ClassQuantity); 3] = [
 ];
 
 /// Lines of the balance and the columns that each sums.
-const BALANCE_LINES: [(&str, &[&str]); 7] = [
+const BALANCE_LINES: [(&str, &[&str]); 6] = [
     ("injected", &["injected_kg"]),
     ("airborne", &["airborne_kg"]),
     ("stuck, mass now", &["stuck_in_cloud_kg", "stuck_removed_kg"]),
     ("escaped", &["escaped_kg"]),
     ("reacted", &["reacted_kg"]),
     ("unusable", &["unusable_removed_kg"]),
-    (FILM, &["to_film_kg"]),
 ];
-
-/// The line of a cloud that gives parcels to a surface film.
-const FILM: &str = "to the surface film";
 
 /// Fills in what the tables in a cloud's folder state.
 pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
@@ -51,8 +47,7 @@ pub(super) fn read_into(results: &mut RunResults, folder: &Path) {
             count: None,
             mass: columns.iter().map(|column| row.number(column)).sum(),
         };
-        let has_part = |line: &BalanceLine| line.what != FILM || line.mass.is_some_and(|mass| mass != 0.0);
-        let lines: Vec<BalanceLine> = BALANCE_LINES.iter().map(line).filter(has_part).collect();
+        let lines: Vec<BalanceLine> = BALANCE_LINES.iter().map(line).collect();
         Some((row.number(TIME)?, (lines, row.number("residual"))))
     });
     let Some(balance) = balance.into_iter().find(|history| history.wall.is_empty()) else { return };
