@@ -46,7 +46,7 @@ void Foam::nearWall::reportCarbon
 void Foam::nearWall::checkReturning
 (
     const dictionary& coeffs,
-    const bool hasComposition,
+    const bool hasDrops,
     const bool stuckAreRemoved,
     const bool oneModel
 )
@@ -57,12 +57,11 @@ void Foam::nearWall::checkReturning
     {
         why = "is for OpenFOAM.com's versions only.\n    Write parcels no;";
     }
-    else if (hasComposition)
+    else if (hasDrops)
     {
         why =
-            "needs the composition of the deposit, which is not kept, and the"
-            " parcels of this cloud have one.\n    Write parcels no; or take a"
-            " thermo or kinematic cloud for what falls and flies inert.";
+            "is not for the drops of this cloud, whose density follows from"
+            " their temperature.\n    Write parcels no;";
     }
     else if (!stuckAreRemoved)
     {

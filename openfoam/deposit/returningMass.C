@@ -81,10 +81,27 @@ Foam::nearWall::returningMass::returningMass
         )
     ),
     waiting_(readWallField(mesh, cloudName + ":waitingMass", dimMass/dimArea)),
-    sums_(mesh, patches, names, saved, folder, ".returned.dat")
+    sums_(mesh, patches, names, saved, folder, ".returned.dat"),
+    parts_(patches.size()),
+    savedParts_(saved.subOrEmptyDict("parts"))
 {
     // Another run may go on with what waits
     if (!on_) setWriteOption(waiting_, IOobject::NO_WRITE);
+}
+
+
+void Foam::nearWall::returningMass::setNumberOfParts(const label n)
+{
+    wordList keys;
+    for (const char* const key : {"landed_", "returned_"})
+    {
+        for (label k = 0; k < n; ++k) keys.append(word(key + Foam::name(k)));
+    }
+    forAll(parts_, i)
+    {
+        const word& patch = sums_[i].name();
+        parts_[i] = runningTotals(keys, savedParts_.subOrEmptyDict(patch), patch);
+    }
 }
 
 
@@ -102,6 +119,7 @@ void Foam::nearWall::returningMass::addCaptured(const impactEvent& e)
         sums_.add(i, landedVolume, area*2/3*d);
         sums_.add(i, landedArea, area);
         sums_.add(i, landed, 1);
+        forAll(e.parts, k) parts_[i].add(k, e.mass*e.parts[k]);
     }
 }
 
@@ -123,10 +141,29 @@ void Foam::nearWall::returningMass::addLost
 }
 
 
+Foam::scalarList Foam::nearWall::returningMass::partsOfLying
+(
+    const scalarList& totals,
+    const scalarList& parts
+) const
+{
+    // Less than rounding can tell: that of all that landed
+    scalar mass = totals[landedMass] - totals[returned]/acceleration_;
+    const bool anyLies = mass > 1e-6*totals[landedMass];
+    if (!anyLies) mass = totals[landedMass];
+
+    const label n = parts.size()/2;
+    scalarList found(n);
+    forAll(found, k) found[k] = (parts[k] - (anyLies ? parts[n + k] : 0))/mass;
+    return found;
+}
+
+
 void Foam::nearWall::returningMass::formParcels
 (
     const label i,
     const scalarList& totals,
+    const scalarList& parts,
     std::vector<parcel>& found
 )
 {
@@ -145,9 +182,10 @@ void Foam::nearWall::returningMass::formParcels
         waiting[facei] = 0;
         sums_.add(i, returned, mass);
         const scalar flow = mass/acceleration_;
+        forAll(parts, k) parts_[i].add(parts.size() + k, flow*parts[k]);
         if (sizes_.empty())
         {
-            found.push_back({patchi, facei, sauter, density, flow});
+            found.push_back({patchi, facei, sauter, density, flow, parts});
         }
         forAll(sizes_, k)
         {
@@ -155,7 +193,7 @@ void Foam::nearWall::returningMass::formParcels
             (
                 {
                     patchi, facei, sizes_[k].first(), density,
-                    sizes_[k].second()*flow
+                    sizes_[k].second()*flow, parts
                 }
             );
         }
@@ -171,9 +209,16 @@ Foam::nearWall::returningMass::take()
     if (!on_) return found;
 
     const List<scalarList> totals(sums_.totals());
+    const List<scalarList> parts(runningTotals::totals(parts_));
     forAll(patches_, i)
     {
-        if (totals[i][landed] > 0) formParcels(i, totals[i], found);
+        if (totals[i][landed] > 0)
+        {
+            formParcels
+            (
+                i, totals[i], partsOfLying(totals[i], parts[i]), found
+            );
+        }
         else if (totals[i][left] > 0 && !isSaid_)
         {
             isSaid_ = true;
@@ -240,5 +285,14 @@ Foam::dictionary Foam::nearWall::returningMass::report
         }
         if (writeRow) sums_.table(i).write(row(i, totals[i], waiting[i], time));
     }
-    return sums_.saved(totals);
+    dictionary saved(sums_.saved(totals));
+    if (parts_.size() && parts_[0].base().size())
+    {
+        saved.add
+        (
+            "parts",
+            runningTotals::saved(parts_, runningTotals::totals(parts_))
+        );
+    }
+    return saved;
 }

@@ -5,6 +5,7 @@
 #include "buildCheck.H"
 #include "dictionaryChecks.H"
 #include "nearWallPreEvolve.H"
+#include "parcelComposition.H"
 
 // * * * * * * * * * * * * * * * * Set-up  * * * * * * * * * * * * * * * * * //
 
@@ -131,7 +132,7 @@ Foam::nearWallInteraction<CloudType>::nearWallInteraction
         nearWall::checkReturning
         (
             coeffs(),
-            nearWall::hasComposition(static_cast<const fullCloudType*>(nullptr)),
+            nearWall::hasDrops(static_cast<const fullCloudType*>(nullptr)),
             stuck_ == stuckTreatment::remove,
             models_.all().size() == 1
         );
@@ -302,6 +303,10 @@ void Foam::nearWallInteraction<CloudType>::stick
 )
 {
     e.result = impactEvent::stuck;
+    if (run_->memory && run_->memory->returnsParcels())
+    {
+        e.parts = nearWall::compositionOf(p);
+    }
     record(e);
     nearWall::setMoving(p, false);
     p.U() = Zero;
@@ -521,7 +526,7 @@ void Foam::nearWallInteraction<CloudType>::returnParcels()
 
         const auto& U = this->owner().U().boundaryField()[back.patch];
         parcelType* const p = nearWall::newParcel<parcelType>(mesh, at, celli);
-        cloud->setParcelThermoProperties(*p, step);
+        nearWall::initialise(*cloud, *p, step);
         p->U() = U.fixesValue() ? U[back.face] : vector(Zero);
         p->d() = back.diameter;
         p->rho() = back.density;
@@ -530,7 +535,8 @@ void Foam::nearWallInteraction<CloudType>::returnParcels()
         (
             *p, run_->memory->surfaceTemperature(back.patch, back.face)
         );
-        cloud->checkParcelProperties(*p, step, false);
+        nearWall::complete(*cloud, *p, step);
+        nearWall::setComposition(*p, back.parts);
         run_->balance.add(massBalance::stuckRemoved, -p->nParticle()*p->mass());
         cloud->addParticle(p);
     }
@@ -572,6 +578,7 @@ template<class CloudType>
 void Foam::nearWallInteraction<CloudType>::info(NEARWALL_INFO_ARGUMENT)
 {
     run_->isSolving = false;
+    run_->balance.add(massBalance::toFilm, run_->film.end());
     stopStuckParcels();
     run_->deposit->endStep();
     run_->finishWalls();

@@ -42,6 +42,7 @@ Foam::nearWall::runState::runState(const statisticsSource& source)
     unknownInjector_(source.models.all().size() > 1 ? 0 : -1),
     balance(source),
     stay(source),
+    film(source.mesh),
     deposit(depositCloud::read(source.mesh, source.cloudName))
 {
     setup_.reportChanges(Info, source.savedAs("setup"));

@@ -15,7 +15,7 @@ using namespace Foam;
 const wordList names
 ({
     "injected_kg", "read_back_kg", "stuck_removed_kg", "escaped_kg",
-    "reacted_kg", "unusable_removed_kg", "in_cloud_kg"
+    "reacted_kg", "unusable_removed_kg", "to_film_kg", "in_cloud_kg"
 });
 
 
@@ -79,7 +79,7 @@ Foam::scalar Foam::nearWall::massBalance::state::residual() const
     const scalar in = t[injected] + t[readBack];
     const scalar out =
         now.airborne + now.stuck + t[stuckRemoved] + t[escaped] + t[reacted]
-      + t[unusableRemoved];
+      + t[unusableRemoved] + t[toFilm];
     return in > 0 ? (in - out)/in : 0;
 }
 
@@ -101,6 +101,10 @@ void Foam::nearWall::massBalance::report(Ostream& os, const state& s) const
     {
         os  << " + unusable " << digits(t[unusableRemoved]).c_str();
     }
+    if (t[toFilm] != 0)
+    {
+        os  << " + to the film " << digits(t[toFilm]).c_str();
+    }
     os  << "; relative residual " << s.residual() << nl;
 }
 
@@ -112,7 +116,10 @@ void Foam::nearWall::massBalance::writeRow(const scalar time, const state& s)
     for (const term i : {injected, readBack}) row.add(names[i], s.totals[i]);
     row.add("airborne_kg", s.now.airborne);
     row.add("stuck_in_cloud_kg", s.now.stuck);
-    for (const term i : {stuckRemoved, escaped, reacted, unusableRemoved})
+    for
+    (
+        const term i : {stuckRemoved, escaped, reacted, unusableRemoved, toFilm}
+    )
     {
         row.add(names[i], s.totals[i]);
     }

@@ -76,7 +76,8 @@ for name in ("recorder", "recorder-2", "recorder-restart", "memory"):
 
     injected = case.balance().iloc[-1]
     same(injected.injected_kg + injected.read_back_kg,
-         injected[["airborne_kg", "stuck_in_cloud_kg", "stuck_removed_kg", "escaped_kg", "reacted_kg", "unusable_removed_kg"]].sum(),
+         injected[["airborne_kg", "stuck_in_cloud_kg", "stuck_removed_kg", "escaped_kg", "reacted_kg", "unusable_removed_kg",
+                   "to_film_kg"]].sum(),
          f"{name}, balance", 1e-9)
 
 # Two ranks lay down what one does; their faces come in another order.

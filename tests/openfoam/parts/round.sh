@@ -195,8 +195,8 @@ gravity_is() { sed -i "s/^value .*/value (0 0 $1);/" constant/g; }
 # injected = airborne + removed, and what was removed lies on the walls or waits there, to 1e-9
 goes_round() { # name start-folder
     local f patch on=0 removed returned
-    check_balance "$1/balance" kinematicCloud "$2"
-    f="$(folder kinematicCloud "$2")"
+    check_balance "$1/balance" "$clouds" "$2"
+    f="$(folder "$clouds" "$2")"
     closes "$1/left" "$f"/*.returned.dat
     for patch in floor lid sides; do
         on="$(awk -v a="$on" -v b="$(last "$f/$patch.wall.dat" powder_kg)" -v c="$(last "$f/$patch.wall.dat" molten_kg)" \
@@ -247,6 +247,8 @@ case_returned() {
     then ok returned/ranks; else bad returned/ranks "$(head -n 1 <<< "$difference")"; fi
     returned_sizes
     returned_heat
+    returned_composition
+    returned_oxide
     refused_return
 }
 
@@ -279,6 +281,68 @@ returned_heat() {
     else bad returned/thermo "no parcel came back"; fi
 }
 
+# The box that gives back, with another cloud
+returning_cloud() { # kind folder
+    returning_box "$2" || return
+    cp constant/{parcels,interaction,nearWall.toml,g} ..
+    build "$1" "$2" || return
+    mv ../{parcels,interaction,nearWall.toml,g} constant
+    sed -i 's/writePrecision .*/writePrecision 17;/' system/controlDict
+    echo 'solution { coupled false; } subModels { particleForces { gravity; } }' >> "constant/${clouds}Properties"
+}
+
+# Two kinds of char that lie on the floor before gravity pulls them off: all that comes back has the mean of both, turn by turn
+returned_composition() {
+    local turn gravity start=0 end
+    returning_cloud multiphase "$work/returned-composition" || return
+    { header "GlobalIOList<reactingMultiphaseParcelInjectionData>" parcels
+      echo "("
+      awk 'BEGIN { srand(5); for (i = 0; i < 400; i++)
+          printf "(%.6f %.6f %.6f) (1 0 -2) 1e-4 1000 1e-6 400 1000 %s (0.6 0.1 0.3) (1) %s\n", 0.005 + 0.04*rand(), 0.01 + 0.08*rand(), 0.003 + 0.02*rand(),
+              i % 2 ? "(0.1 0.1 0.8)" : "(0.3 0 0.7)", i % 2 ? "(0.25 0.75)" : "(0.5 0.5)" }'
+      echo ")"; } > constant/parcels
+    echo 'constantProperties { T0 400; constantVolume false; } subModels { heatTransferModel none; phaseChangeModel none; devolatilisationModel none; injectionModels { model1
+        { type reactingMultiphaseLookupTableInjection; inputFile "parcels"; massTotal 1e-6; duration 0.002; parcelsPerSecond 500.0001; randomise false; } } }' \
+        >> constant/reactingCloud1Properties
+    for turn in 0 1 2 3; do
+        case "$turn" in 0) gravity=0 end=0.04 ;; 1) gravity=9.81 end=0.24 ;; 2) gravity=-9.81 end=0.44 ;; 3) gravity=9.81 end=0.64 ;; esac
+        gravity_is "$gravity"
+        settings "$end" 0.04 latestTime ascii
+        if [ "$turn" != 2 ]; then solve returned "turn$turn" "$solver" || return
+        else
+            ranks_are 2
+            quiet decompose decomposePar -latestTime
+            solve returned "turn$turn" mpirun -np 2 "$solver" -parallel || return
+            quiet together reconstructPar -newTimes
+        fi
+        goes_round "returned/composition$turn" "$start"
+        [ "$turn" = 0 ] || of_both "returned/composition$turn" "$(awk -v t="$start" 'BEGIN { print t + 0.04 }')"
+        start="$end"
+    done
+}
+
+# Mean of both, of the parcel's mass: solid 0.75, carbon 0.275 (the first of the solid's two), methane 0.6 of a fifth
+of_both() { # name time
+    local d="$2/lagrangian/reactingCloud1" said
+    said="$(paste <(values "$d/Ysolid") <(values "$d/YC(s)") <(values "$d/YCH4(g)") <(values "$d/mass0") <(values "$d/d") <(values "$d/rho") | awk '
+        { n++; e = ($1 - 0.75)^2 + ($2 - 0.275)^2 + ($3 - 0.12)^2 + ($4/($6*3.141592653589793*$5^3/6) - 1)^2; if (e > worst) worst = e }
+        END { printf "%d parcels, off by %.1e", n, sqrt(worst); exit !(n >= 2 && worst < 1e-18) }')" \
+        && ok "$1/of-both ($said)" || bad "$1/of-both" "$said"
+}
+
+# Copper oxide comes back with the progress of its oxidation
+returned_oxide() {
+    local said
+    returning_cloud heterogeneous "$work/returned-oxide" || return
+    sed -i 's/Aeff 0.7;/Aeff 0.02;/' constant/reactingCloud1Properties
+    settings 0.2 0.04 startTime ascii
+    solve returned oxide "$solver" || return
+    goes_round returned/oxide 0
+    said="$(paste <(values 0.04/lagrangian/reactingCloud1/YFe3O4) <(values 0.04/lagrangian/reactingCloud1/F0) \
+        | awk '$1 > 0 && $1 < 0.99 && $2 > 0 { n++ } END { print n + 0 }')"
+    if [ "$said" -gt 10 ]; then ok "returned/oxide ($said parcels)"; else bad returned/oxide "$said parcels"; fi
+}
+
 # What cannot be done is refused with place and remedy
 refused_return() {
     local said
@@ -287,9 +351,9 @@ refused_return() {
     if quiet keep "$solver"; then bad returned/refused-keep "the run went through"
     elif tr -s ' \n' ' ' < log.keep | grep -q "Key 'parcels' of memory, shed.*Write stuck remove;"
     then ok returned/refused-keep; else bad returned/refused-keep "$(grep -A4 FATAL log.keep | tr '\n' ' ')"; fi
-    build multiphase "$work/returned-composition" || return
+    build spray "$work/returned-spray" || return
     echo 'model "<constant>/nearWall.toml"; stuck remove; memory { shed { parcels yes; } } patches { outlet { type rebound; } }' > constant/interaction
-    if quiet run "$solver"; then bad returned/refused-composition "the run went through"
-    elif tr -s ' \n' ' ' < log.run | grep -q "needs the composition of the deposit"
-    then ok returned/refused-composition; else bad returned/refused-composition "$(grep -A4 FATAL log.run | tr '\n' ' ')"; fi
+    if quiet run "$solver"; then bad returned/refused-spray "the run went through"
+    elif tr -s ' \n' ' ' < log.run | grep -q "drops of this cloud"
+    then ok returned/refused-spray; else bad returned/refused-spray "$(grep -A4 FATAL log.run | tr '\n' ' ')"; fi
 }

@@ -16,9 +16,11 @@ sys.exit(code)
 PY
 }
 
-# The gasifier from 0.4 to 0.5 s, from one state, five times in turn
+# The gasifier from 0.4 to 0.5 s, from one state, REPEATS times (5) in turn, with all MODELS; "together": memory, film, heat, and what
+# falls from the walls comes back
 case_ratio() {
     local base="$here/../../tutorials/slaggingGasifier" state="$work/ratio-state" how i case
+    local models="${MODELS:-localInteraction dispersion nearWallNoMemory nearWall everything cooled together}"
     command -v python3 >/dev/null || { bad ratio "python3 is missing"; return; }
     mkdir -p "$state"; cp -r "$base/constant" "$base/system" "$state"; cp -r "$base/0.orig" "$state/0"
     cp "$base/wallModels/nearWall" "$state/constant/wallInteraction"
@@ -27,28 +29,41 @@ case_ratio() {
     quiet blockMesh blockMesh
     solve ratio/state state coalChemistryFoam || return
     sed -i 's/^endTime .*/endTime 0.5;/; s/^writeInterval .*/writeInterval 0.1;/; s/^startFrom .*/startFrom latestTime;/' system/controlDict
-    for i in 1 2 3 4 5; do
-        for how in localInteraction dispersion nearWallNoMemory nearWall everything cooled; do
+    for i in $(seq "${REPEATS:-5}"); do
+        for how in $models; do
             case="$work/ratio-$how"; rm -rf "$case"; cp -r "$state" "$case"; cd "$case" || return
-            cp "$base/wallModels/$(case "$how" in everything|cooled) echo nearWall ;; dispersion) echo localInteraction ;; *) echo "$how" ;; esac)" \
-                constant/wallInteraction
-            if [ "$how" = cooled ]; then    # brick behind the slag: nearly the temperatures of the others
-                quiet set foamDictionary -entry boundaryField.slagWall -set "{ type nearWallDepositTemperature; Ta 320; h 20;
-                    thicknessLayers (0.2); kappaLayers (2.5); qr qr; value uniform 1600; }" 0.4/T
-                sed -i 's/film  *yes;/film yes; acceleration 5000;/' constant/wallInteraction
-            fi
-            [ "$how" != dispersion ] || sed -i 's/stochasticDispersionRAS/nearWallDispersion/' constant/coalCloud1Properties
-            [ "$how" != everything ] || sed -i 's/^    stuck .*/    stuck react; record { maxRows 100000; }/' constant/wallInteraction
+            ratio_model "$how"
             measured spent coalChemistryFoam || { bad "ratio/$how" "the solver failed, see $case"; return; }
             cut -d' ' -f1 spent >> "$work/ratio-$how.times"
+            [ "$how" != together ] || check_balance "ratio/together-$i" coalCloud1 0.4
             rm -rf "$case"
         done
     done
     cd "$work" || return
-    for how in localInteraction dispersion nearWallNoMemory nearWall everything cooled; do
+    for how in $models; do
         ok "ratio/$how ($(paste -d ' ' "ratio-$how.times" ratio-localInteraction.times \
             | awk '{ print $1/$2, $1 }' | sort -g | awk '{ r[NR] = $1; t[NR] = $2 } END { printf "user time over localInteraction: median %.3f, from %.3f to %.3f; %.1f s", r[int((NR + 1)/2)], r[1], r[NR], t[int((NR + 1)/2)] }'))"
     done
+}
+
+# The wall model of one of the runs, in its case
+ratio_model() {
+    local file=constant/wallInteraction from=nearWall
+    case "$1" in localInteraction|nearWallNoMemory) from="$1" ;; dispersion) from=localInteraction ;; esac
+    cp "$here/../../tutorials/slaggingGasifier/wallModels/$from" "$file"
+    case "$1" in
+        dispersion) sed -i 's/stochasticDispersionRAS/nearWallDispersion/' constant/coalCloud1Properties ;;
+        everything) sed -i 's/^    stuck .*/    stuck react; record { maxRows 100000; }/' "$file" ;;
+        cooled)     sed -i 's/film  *yes;/film yes; acceleration 5000;/' "$file" ;;
+        together)   sed -i 's/film  *yes;/film yes; shed { parcels yes; }/; s/^    stuck .*/    stuck remove;/' "$file"
+                    printf '\n[walls.%s.shedding]\ntensile_strength = 1e-3\nshear_strength = 1e-3\nspread = 1.5\n' \
+                        slagWall default quenchWall >> constant/nearWall.toml ;;
+    esac
+    # Brick behind the slag: nearly the temperatures of the others
+    case "$1" in cooled|together)
+        quiet set foamDictionary -entry boundaryField.slagWall -set "{ type nearWallDepositTemperature; Ta 320; h 20;
+            thicknessLayers (0.2); kappaLayers (2.5); qr qr; value uniform 1600; }" 0.4/T ;;
+    esac
 }
 
 # faces-a-side parcels model: user time and memory of one run

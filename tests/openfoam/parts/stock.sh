@@ -19,7 +19,7 @@ stock_folder() {
 # name path: the tutorial in a new folder, with what all rows start from
 stock_case() {
     local from
-    name="stock-$1" dir="$work/stock-$1" from="$(stock_folder)/lagrangian/$2"
+    name="${kind:-stock}-$1"; dir="$work/$name" from="$(stock_folder)/lagrangian/$2"
     clouds="" walls="" others="" steady="" own=""
     [ -d "$from" ] || { bad "$name" "no tutorial $from; run openfoam/prepareDebian or set FOAM_TUTORIALS"; return 1; }
     rm -rf "$dir"; mkdir -p "$work"; cp -rL "$from" "$dir"; cd "$dir" || return
