@@ -90,12 +90,12 @@ fly_channel() { # name folder count relaxation dispersion wall-interaction end [
 }
 
 # Within a factor of two of 3.25e-4 tau+^2 (McCoy and Hanratty 1977) to 6e-4 tau+^2 up to 10 and of 0.1 to 0.17 above (Liu and
-# Agarwal 1974); at 1 only no more than twice
+# Agarwal 1974); at 3 known to be low, at 1 only no more than twice
 case_dispersion() {
     local row
     channel "$work/dispersion" || return
     channel "$work/dispersion-coarse" coarse || return
-    for row in 5:8.1e-3:0.015 10:0.0325:0.06 30:0.1:0.17 100:0.1:0.17 1000:0.1:0.17 1:0:6e-4:coarse 10:0.0325:0.06:coarse 100:0.1:0.17:coarse; do
+    for row in 3:1.5e-3:5.4e-3 5:8.1e-3:0.015 10:0.0325:0.06 30:0.1:0.17 100:0.1:0.17 1000:0.1:0.17 1:0:6e-4:coarse 10:0.0325:0.06:coarse 100:0.1:0.17:coarse; do
         IFS=: read -ra row <<< "$row"
         deposits "${row[@]}" nearWallDispersion || return
     done
