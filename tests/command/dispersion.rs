@@ -84,9 +84,9 @@ fn deposition(diameter: f64, count: u32, time: f64, more: &str) -> [f64; 2] {
     [landed / stayed * 0.5 * RADIUS / FRICTION_VELOCITY, 1.0 / landed.sqrt()]
 }
 
-/// Fits of measured deposition, `V+ = 3.25e-4 tau+²` (McCoy and Hanratty 1977) to `6e-4 tau+²` (Liu and Agarwal 1974) up to
-/// 10, 0.1 to 0.17 above: within a factor of two from 5 on, known to be low below. Particles below 10 gather at the wall for a
-/// thousand viscous times first; those of Liu and Agarwal had 3000 to 10 000.
+/// Fits of measured deposition, `V+ = 3.25e-4 tau+²` (McCoy and Hanratty 1977) to `6e-4 tau+²` (Liu and Agarwal 1974)
+/// up to 10, 0.1 to 0.17 above: within a factor of two from 5 on, known to be low below. Particles below 10 gather at
+/// the wall for a thousand viscous times first; those of Liu and Agarwal had 3000 to 10 000.
 #[test]
 fn particles_deposit_as_measured() {
     for (relaxation, low, high, factor, count, time) in [
