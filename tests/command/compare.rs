@@ -358,5 +358,5 @@ fn models_are_ranked_on_the_readings_of_a_rig() {
 
     std::fs::write(folder.path().join("broken.toml"), "[particle]\nmaterial = \"own\"\n").unwrap();
     let call = ["compare", "rig.csv", "--case", "case.toml", "--models", "right.toml", "broken.toml"];
-    refused(folder.path(), &call, &["broken.toml", "normal"]);
+    refused(folder.path(), &call, &["broken.toml:2", "unknown material"]);
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::atomic_file::write_texts;
 use crate::dataset::{ColumnMap, RigMeasurements, WallChoice};
-use crate::diagnose::comparison::{ComparedModel, Comparison, compare, compare_rig};
+use crate::diagnose::comparison::{ComparedModel, Comparison, RigComparisonError, compare, compare_rig};
 use crate::report::{comparison_page, comparison_text};
 use crate::rig::CaseText;
 use nearwall::Model;
@@ -67,6 +67,10 @@ fn on_rig(arguments: &Arguments, case: &Path, models: &[Document]) -> Compared {
     let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
     let data = RigMeasurements::read(&file, source)?;
     super::note(&data.notes);
+    // An error of a model with line and key, before anything is simulated.
+    for model in models {
+        Model::from_toml(model.name(), model.text())?;
+    }
     let case = CaseText::from_file(case)?;
     let bar = progress::spinner("models simulated");
     let told = |model: &str| {
@@ -75,7 +79,11 @@ fn on_rig(arguments: &Arguments, case: &Path, models: &[Document]) -> Compared {
     };
     let comparison = compare_rig(&case, &data, models, arguments.seed, &told);
     bar.finish_and_clear();
-    Ok((comparison.map_err(|error| format!("{file}: {error}"))?, data.notes))
+    let comparison = comparison.map_err(|error| match error {
+        RigComparisonError::TooFew { .. } => format!("{file}: {error}"),
+        other => other.to_string(),
+    });
+    Ok((comparison?, data.notes))
 }
 
 /// Compares on measured impacts.

@@ -163,9 +163,9 @@ impl VelocityField for Duct {
         self.along * speed
     }
 
-    fn friction_velocity(&self) -> Option<f64> {
+    fn turbulent_duct(&self) -> Option<[f64; 2]> {
         match self.flow {
-            Flow::Turbulent { friction_velocity, .. } => Some(friction_velocity),
+            Flow::Turbulent { friction_velocity, .. } => Some([friction_velocity, self.section.half()]),
             Flow::Laminar(_) => None,
         }
     }

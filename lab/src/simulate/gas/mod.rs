@@ -28,8 +28,8 @@ pub trait VelocityField: Send + Sync + std::fmt::Debug {
     /// Gas velocity [m/s] at a position [m]. It has to be finite everywhere, also behind a wall.
     fn velocity(&self, position: &Vector3<f64>) -> Vector3<f64>;
 
-    /// Friction velocity [m/s] at the walls of the field, where it knows one.
-    fn friction_velocity(&self) -> Option<f64> {
+    /// Friction velocity [m/s] at the walls of a turbulent duct, and half its height [m].
+    fn turbulent_duct(&self) -> Option<[f64; 2]> {
         None
     }
 }
@@ -110,7 +110,7 @@ impl Gas {
             field = Box::new(Duct::read(section, known(&properties[1]) / known(&properties[0]))?);
         }
         let turbulence = section.section("turbulence")?;
-        let turbulence = turbulence.map(|s| Turbulence::read(&s, field.friction_velocity())).transpose()?;
+        let turbulence = turbulence.map(|s| Turbulence::read(&s, field.turbulent_duct())).transpose()?;
         let gas = Self {
             field,
             temperature,

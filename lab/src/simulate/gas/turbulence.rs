@@ -3,6 +3,11 @@
 //! Each place belongs to its nearest wall, whose layer [`nearwall::transport::near_wall`] describes. A wall with a
 //! `friction_velocity` of its own has that one; the others have that of this table, of the duct, or
 //! `0.09^(1/4) sqrt(k)`, which holds where production and dissipation of `k` are in balance.
+//!
+//! Without `k` and `epsilon` the core of a turbulent duct of half the height `h` is that of open channels, with the
+//! friction velocity `u_tau` and the distance `y` from the nearest wall (Nezu and Nakagawa, Turbulence in Open-Channel
+//! Flows, 1993; from memory, not re-read): `k = 4.78 u_tau² exp(-2 y/h)`, `epsilon = 9.8 u_tau³/h (y/h)^(-1/2) exp(-3
+//! y/h)`. Its eddy diffusivity is that of ducts (tested).
 
 use nalgebra::Vector3;
 
@@ -16,15 +21,17 @@ use nearwall::transport::{Core, GasTurbulence, WallLayer};
 pub struct Turbulence {
     friction_velocity: f64,
     core: Option<Core>,
+    /// Half the height of the duct [m].
+    half: Option<f64>,
 }
 
 impl Turbulence {
-    /// Reads `friction_velocity` [m/s], `k` [m²/s²] and `epsilon` [m²/s³]. `of_field` is the friction velocity that
-    /// the mean flow has.
+    /// Reads `friction_velocity` [m/s], `k` [m²/s²] and `epsilon` [m²/s³]. `of_field` are the friction velocity that
+    /// the mean flow has and half the height of its duct [m].
     ///
     /// # Errors
     /// [`InputError::Fault`] when neither is known, or one of `k` and `epsilon` is missing.
-    pub fn read(section: &Section<'_>, of_field: Option<f64>) -> Result<Self, InputError> {
+    pub fn read(section: &Section<'_>, of_field: Option<[f64; 2]>) -> Result<Self, InputError> {
         let positive = |key: &str| section.number_within(key, f64::MIN_POSITIVE, f64::INFINITY);
         let (given, energy, dissipation) =
             (positive("friction_velocity")?, positive("k")?, positive("epsilon")?);
@@ -35,11 +42,11 @@ impl Turbulence {
             (_, None) => return Err(section.missing("epsilon", "its dissipation [m2/s3]")),
         };
         let in_balance = energy.map(|energy| 0.09_f64.powf(0.25) * energy.sqrt());
-        let friction_velocity = given.or(of_field).or(in_balance);
+        let friction_velocity = given.or(of_field.map(|[speed, _]| speed)).or(in_balance);
         let friction_velocity = friction_velocity
             .ok_or_else(|| section.missing("friction_velocity", "a speed [m/s], or k and epsilon,"))?;
         section.finish()?;
-        Ok(Self { friction_velocity, core })
+        Ok(Self { friction_velocity, core, half: of_field.map(|[_, half]| half) })
     }
 
     /// Whether a particle of a relaxation time [s] is one of those that reach walls too seldom: of 0.3 to 4 viscous
@@ -75,6 +82,42 @@ impl Turbulence {
             friction_velocity: if own > 0.0 { own } else { self.friction_velocity },
             kinematic_viscosity: gas.viscosity / gas.density,
         };
-        Some(GasTurbulence::beside(&layer, self.core.as_ref(), gas.velocity.into()))
+        let core = self.core.or_else(|| self.half.map(|half| duct_core(&layer, half)));
+        Some(GasTurbulence::beside(&layer, core.as_ref(), gas.velocity.into()))
+    }
+}
+
+/// The core of a turbulent duct of half the height [m] at a distance from its nearest wall.
+fn duct_core(wall: &WallLayer, half: f64) -> Core {
+    let (place, speed) = ((wall.distance / half).clamp(1e-3, 1.0), wall.friction_velocity);
+    let energy = 4.78 * speed * speed * (-2.0 * place).exp();
+    let dissipation = 9.8 * speed.powi(3) / half * (-3.0 * place).exp() / place.sqrt();
+    let core = Core::uniform(energy, dissipation);
+    Core { gradient: wall.normal.map(|part| -core.fluctuation / half * part), ..core }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The eddy diffusivity of ducts over `u_tau h` is `0.41 y/h (1 - y/h)` up to half of the way to the middle, as the
+    /// logarithmic law and a linear shear stress ask for, and 0.07 there (Hinze, Turbulence, 1975, pipes).
+    #[test]
+    fn the_core_of_a_duct_mixes_as_measured() {
+        for (place, measured) in [(0.2, 0.066), (0.3, 0.086), (0.5, 0.1), (0.9, 0.07), (1.0, 0.07)] {
+            let wall = WallLayer {
+                distance: 0.01 * place,
+                normal: [0.0, 0.0, 1.0],
+                divergence: 0.0,
+                friction_velocity: 0.3,
+                kinematic_viscosity: 1.5e-5,
+            };
+            let core = duct_core(&wall, 0.01);
+            let ratio = core.fluctuation.powi(2) * core.time_scale / (0.3 * 0.01) / measured;
+            assert!((0.85..1.3).contains(&ratio), "{place}: {ratio}");
+            let farther = duct_core(&WallLayer { distance: wall.distance - 1e-7, ..wall }, 0.01);
+            let slope = (core.fluctuation - farther.fluctuation) / 1e-7;
+            assert!((slope / core.gradient[2] - 1.0).abs() < 1e-4, "{place}: {slope}");
+        }
     }
 }
