@@ -625,7 +625,8 @@ nw_status nw_resolve_batch(const struct nw_model *model,
                            size_t *first_bad);
 
 // Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant and gas must be set.
+// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant
+// and gas must be set.
 //
 // # Safety
 // `cooling` can be written.
@@ -706,7 +707,8 @@ nw_status nw_deposit_source_add(const struct nw_model *model,
 nw_status nw_deposit_add(const struct nw_deposit_source *source, struct nw_deposit *deposit);
 
 // Sets the `layer_thickness` and `coverage` of the powder, and the `melt_thickness` of the slag, which
-// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The wall is that of the impact.
+// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The
+// wall is that of the impact.
 //
 // # Safety
 // `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.
@@ -806,9 +808,9 @@ nw_status nw_deposit_losses_init(struct nw_deposit_losses *losses);
 // that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 // wall in the model file); what the wall cannot hold falls off (table `shedding`); vapour condenses on
 // a surface of a known temperature (table `condensation`). `losses`
-// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
-// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
-// finite, since a surface that is held at a temperature could give any heat.
+// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the
+// step first, with `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled;
+// its `gas_coefficient` must be finite, since a surface that is held at a temperature could give any heat.
 //
 // # Safety
 // `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`, and

@@ -173,7 +173,8 @@ fn is_positive(number: f64) -> bool {
 }
 
 /// Initialises what cools and heats a wall: its size, an infinite `coolant_coefficient`, 0.026 W/(m
-/// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant and gas must be set.
+/// K) at 293.15 K for the gas in the voids (air), the vapour of the model file, zeros. The temperatures of coolant
+/// and gas must be set.
 ///
 /// # Safety
 /// `cooling` can be written.

@@ -202,7 +202,8 @@ pub unsafe extern "C" fn nw_deposit_add(
 }
 
 /// Sets the `layer_thickness` and `coverage` of the powder, and the `melt_thickness` of the slag, which
-/// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The wall is that of the impact.
+/// is stiff or liquid by `T_w`, of an impact on a deposit. `voidage` is the share of voids in the powder [1]. The
+/// wall is that of the impact.
 ///
 /// # Safety
 /// `model` is a loaded model; `deposit` and `impact` begin with their `struct_size`.

@@ -114,9 +114,9 @@ pub unsafe extern "C" fn nw_deposit_losses_init(losses: *mut nw_deposit_losses) 
 /// that comes and goes, powder sinters; the gas carries loose powder away (table `resuspension` of the
 /// wall in the model file); what the wall cannot hold falls off (table `shedding`); vapour condenses on
 /// a surface of a known temperature (table `condensation`). `losses`
-/// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the step first, with
-/// `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled; its `gas_coefficient` must be
-/// finite, since a surface that is held at a temperature could give any heat.
+/// receives the mass that each process took and the heat that crossed the deposit. Add the particles captured in the
+/// step first, with `nw_deposit_add`. `cooling` is null, or as it was initialised, for a wall that is not cooled;
+/// its `gas_coefficient` must be finite, since a surface that is held at a temperature could give any heat.
 ///
 /// # Safety
 /// `model` is a loaded model; `surroundings`, `deposit` and `losses` begin with their `struct_size`, and

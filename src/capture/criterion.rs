@@ -58,7 +58,8 @@ pub enum Unsuitable {
     Composition(#[from] UnsuitableComposition),
     /// Its viscosity has to follow from its composition, and no law is given.
     #[error(
-        "`{material}` has a composition but no viscosity; add law = \"{}\" to [capture], or give viscosity to the material",
+        "`{material}` has a composition but no viscosity; add law = \"{}\" to [capture], or give viscosity to the \
+            material",
         crate::slag::urbain::KALMANOVITCH_FRANK.name
     )]
     NoLaw {

@@ -33,10 +33,11 @@
 //! Rebound: with a `contact_angle` of the melt on the wall [degrees] a droplet that does not splash
 //! leaves whole where energy is left for it ([`drop_restitution`](super::drop_restitution)), and with
 //! that restitution. `receding_angle` [degrees] pins it, `gravity` [m/s²] weighs on it where the wall is
-//! below; without it a drop of `Bo` above 0.1 at 9.81 m/s² counts as outside the range. It stays if it freezes before it can recoil ([`drop_freezing`](super::drop_freezing)), which is
-//! judged where the droplet has `melting_point`, `heat_capacity`, `thermal_conductivity` and
-//! `heat_of_fusion`, and the wall `heat_capacity` and `thermal_conductivity`. Without a contact
-//! angle all that does not splash counts as deposited; on a molten wall too, where drops merge.
+//! below; without it a drop of `Bo` above 0.1 at 9.81 m/s² counts as outside the range. It stays if it freezes
+//! before it can recoil ([`drop_freezing`](super::drop_freezing)), which is judged where the droplet has
+//! `melting_point`, `heat_capacity`, `thermal_conductivity` and `heat_of_fusion`, and the wall `heat_capacity` and
+//! `thermal_conductivity`. Without a contact angle all that does not splash counts as deposited; on a molten wall
+//! too, where drops merge.
 
 use super::drop_bounce::{BounceNumbers, StatedNumber};
 use super::drop_freezing::{FreezingDroplet, ThermalProperties};

@@ -5,17 +5,17 @@
 //! the cone has spread), the shares 1/3 and 2/3, the straight lines. With deformation equal to flow it is a step.
 //! The temperature is the particle's for a particle and the wall's for what lies there; the speed does not count.
 //!
-//! The temperatures are the material's `fusion_temperatures`, else they are estimated from its composition with a band of
-//! some ± 130 to 270 K ([`crate::slag::ash_fusion`]); `nearwall check` shows which, with the 90 % band. A composition
-//! outside the ashes of the estimate is refused. The band of the stickiness, which `predict --explain` prints, has all
-//! temperatures at the upper or the lower end of theirs (assumed: they err together).
+//! The temperatures are the material's `fusion_temperatures`, else they are estimated from its composition with a
+//! band of some ± 130 to 270 K ([`crate::slag::ash_fusion`]); `nearwall check` shows which, with the 90 % band. A
+//! composition outside the ashes of the estimate is refused. The band of the stickiness, which `predict --explain`
+//! prints, has all temperatures at the upper or the lower end of theirs (assumed: they err together).
 //!
 //! Below the flow temperature what lies on a wall is solid: it does not flow, and particles that are caught there are
 //! powder. Above it the melt has the material's viscosity, or that of the `law` for its composition; without either it
 //! does not flow.
 //!
-//! Valid for ashes that resemble the laboratory's specimen in composition and gas. The sheet heats a pressed cone for an
-//! hour; single minerals in a particle soften earlier or later.
+//! Valid for ashes that resemble the laboratory's specimen in composition and gas. The sheet heats a pressed cone
+//! for an hour; single minerals in a particle soften earlier or later.
 
 use super::melt::{Melt, MeltLaws};
 use super::{StickinessCriterion, Unsuitable};

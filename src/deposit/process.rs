@@ -314,8 +314,8 @@ mod tests {
     use super::VoidGas;
     use approx::assert_relative_eq;
 
-    /// Air of 300 and 1000 K (Incropera, table A.4): in between within 5 % of the table, at 1500 K 9 % low. A constant, an
-    /// exponent that no gas has and temperatures side by side tell nothing of the slope.
+    /// Air of 300 and 1000 K (Incropera, table A.4): in between within 5 % of the table, at 1500 K 9 % low. A
+    /// constant, an exponent that no gas has and temperatures side by side tell nothing of the slope.
     #[test]
     fn the_gas_in_the_voids_goes_through_both_points() {
         let air = VoidGas::through([1000.0, 0.0667], Some([300.0, 0.0263]));

@@ -11,14 +11,15 @@
 //! coefficient of the gas [W/(m² K)], `c_p` its heat capacity [J/(kg K)], `Le` its thermal diffusivity over the
 //! diffusivity of the vapour [1], `y_g y_s` mole fractions of the vapour in the gas and at the surface [1], `T_s`
 //! temperature of the surface [K], `p` pressure [Pa], `p_s` saturation pressure [Pa], `L` heat of condensation [J/kg],
-//! `R` the gas constant. The mole flux is `k_c p/(R T) ln(...)` (Bird, Stewart and Lightfoot, Transport Phenomena, chapter
-//! 18 and 22, from memory) with `h/k_c = rho c_p Le^(2/3)` and `rho = p M_g/(R T)`, so that `p` and `T` of the film cancel.
+//! `R` the gas constant. The mole flux is `k_c p/(R T) ln(...)` (Bird, Stewart and Lightfoot, Transport Phenomena,
+//! chapter 18 and 22, from memory) with `h/k_c = rho c_p Le^(2/3)` and `rho = p M_g/(R T)`, so that `p` and `T` of
+//! the film cancel.
 //!
 //! Saturation pressures are those of the JANAF tables (Chase 1998; KCl 3/66, NaCl 9/64), which NASA fits (Cantera's
-//! `nasa_condensed.yaml` and `nasa_gas.yaml`), of monomers, fitted within 0.4 % from 600 K to the melting point and within
-//! 0.2 % from there to 1700 K. Second source: Stull 1947 in the NIST WebBook measured all vapour over the melt, the tests
-//! compare. Dimers add a fifth to a third below 1100 K and are left out, as in the gas, where the little vapour is
-//! monomer.
+//! `nasa_condensed.yaml` and `nasa_gas.yaml`), of monomers, fitted within 0.4 % from 600 K to the melting point and
+//! within 0.2 % from there to 1700 K. Second source: Stull 1947 in the NIST WebBook measured all vapour over the
+//! melt, the tests compare. Dimers add a fifth to a third below 1100 K and are left out, as in the gas, where the
+//! little vapour is monomer.
 //!
 //! *Assumed*: the vapour reaches the surface as such and does not form fume in the boundary layer; the salt takes no
 //! part in reactions (sulphation) and dissolves in nothing; what has condensed does not evaporate again; it lies there
@@ -190,10 +191,10 @@ mod tests {
     use crate::input::Document;
     use approx::assert_relative_eq;
 
-    /// By hand: 60 W/(m² K), a mass fraction of 1e-4 of KCl at 1 atm and a surface of 800 K, where the salt's saturation
-    /// pressure is 0.0237 Pa (JANAF). `y_g = 1.341364e-3/(1.341364e-3 + 34.47931) = 3.890195e-5`, `y_s = 2.337e-7`,
-    /// `h/(c_p M_g Le^(2/3)) = 60/(1200 0.029 1.587401) = 1.086139` mol/(m² s), times `3.86690e-5` of the logarithm times
-    /// 0.074551 kg/mol: 3.1311e-6 kg/(m² s), 11 kg/m² in 1000 h.
+    /// By hand: 60 W/(m² K), a mass fraction of 1e-4 of KCl at 1 atm and a surface of 800 K, where the salt's
+    /// saturation pressure is 0.0237 Pa (JANAF). `y_g = 1.341364e-3/(1.341364e-3 + 34.47931) = 3.890195e-5`, `y_s =
+    /// 2.337e-7`, `h/(c_p M_g Le^(2/3)) = 60/(1200 0.029 1.587401) = 1.086139` mol/(m² s), times `3.86690e-5` of the
+    /// logarithm times 0.074551 kg/mol: 3.1311e-6 kg/(m² s), 11 kg/m² in 1000 h.
     #[test]
     fn the_flux_is_that_by_hand() {
         let table = Document::new("test", "vapour = \"KCl\"\nmass_fraction = 1e-4\n");
@@ -203,8 +204,8 @@ mod tests {
         assert_eq!(condensation.flux(&gas, 960.0), 0.0);
     }
 
-    /// Stull (1947) as Antoine's law in the NIST WebBook, `log10(p/bar) = A - B/(T + C)`, over the melt, for all vapour.
-    /// The JANAF tables have 23 to 31 % of dimers there, by which monomers are less.
+    /// Stull (1947) as Antoine's law in the NIST WebBook, `log10(p/bar) = A - B/(T + C)`, over the melt, for all
+    /// vapour. The JANAF tables have 23 to 31 % of dimers there, by which monomers are less.
     #[test]
     fn saturation_pressures_are_those_measured_less_dimers() {
         for (salt, [a, b, c], monomers) in [

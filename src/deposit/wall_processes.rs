@@ -25,8 +25,8 @@ pub const PROCESSES: &[&ProcessInfo] =
 /// Number of processes.
 pub const PROCESS_COUNT: usize = PROCESSES.len();
 
-/// Mass that each process took from a piece of wall [kg/m²], in the order of [`PROCESSES`]; negative for one that brings
-/// mass.
+/// Mass that each process took from a piece of wall [kg/m²], in the order of [`PROCESSES`]; negative for one that
+/// brings mass.
 pub type Losses = [f64; PROCESS_COUNT];
 
 /// The processes that act on one wall.

@@ -10,8 +10,8 @@ use crate::slag::{Composition, density, elastic};
 /// Temperatures [K] at which the density is tabulated.
 const DENSITY_AT: [f64; 6] = [1.0, density::FROZEN, 1300.0, 1600.0, 2000.0, 3000.0];
 
-/// Temperatures [K] of the modulus, and its share [1] of that of the cold glass: as `coal-slag`, 20 GPa at 1000 °C and 5
-/// GPa at 1450 °C of 75 GPa (Troiano Table 1; the rest assumed there).
+/// Temperatures [K] of the modulus, and its share [1] of that of the cold glass: as `coal-slag`, 20 GPa at 1000 °C
+/// and 5 GPa at 1450 °C of 75 GPa (Troiano Table 1; the rest assumed there).
 const MODULUS_AT: [f64; 5] = [1.0, 293.15, 1273.15, 1723.15, 2273.15];
 const SOFTENING: [f64; 5] = [1.0, 1.0, 20.0 / 75.0, 5.0 / 75.0, 5.0 / 75.0];
 
@@ -26,7 +26,8 @@ pub(super) fn estimated(key: &str, composition: &Composition) -> Option<Property
     match key {
         "density" => {
             let points = DENSITY_AT.into_iter().map(density_at).collect::<Option<Vec<_>>>()?;
-            let source = "estimated from the composition by partial molar volumes, src/slag/density.rs: within 4 % without pores";
+            let source = "estimated from the composition by partial molar volumes, src/slag/density.rs: within 4 % \
+                without pores";
             Property::estimated(&points, [273.15, 2300.0], source)
         }
         "youngs_modulus" => {
@@ -38,7 +39,8 @@ pub(super) fn estimated(key: &str, composition: &Composition) -> Option<Property
         }
         "poisson_ratio" => {
             let [_, poisson] = glass()?;
-            let source = "estimated from the composition after Makishima and Mackenzie, src/slag/elastic.rs: within 0.06";
+            let source = "estimated from the composition after Makishima and Mackenzie, src/slag/elastic.rs: within \
+                0.06";
             Property::estimated(&[[1.0, poisson], [3000.0, poisson]], [273.15, 2300.0], source)
         }
         _ => None,

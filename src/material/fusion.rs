@@ -82,7 +82,8 @@ mod tests {
         let found = sheet("deformation = 1400, softening = 1450, hemisphere = 1450, flow = 1500").unwrap();
         assert_eq!(
             found.describe(),
-            "deformation 1400 ± 40 K, softening 1450 ± 40 K, hemisphere 1450 ± 40 K, flow 1500 ± 40 K (90 % band, given)"
+            "deformation 1400 ± 40 K, softening 1450 ± 40 K, hemisphere 1450 ± 40 K, flow 1500 ± 40 K (90 % band, \
+                given)"
         );
         let two = sheet("deformation = 1400, flow = 1500, uncertainty = 15, source = \"own\"").unwrap();
         assert_eq!((two.softening, two.hemisphere, two.half_widths[0]), (None, None, 15.0));

@@ -144,7 +144,8 @@ mod tests {
         assert_eq!(own.property("youngs_modulus"), before.property("youngs_modulus"));
     }
 
-    /// Hill's mean of Young's modulus and Voigt's of Poisson's ratio, from the elastic constants [GPa] of both cubic salts.
+    /// Hill's mean of Young's modulus and Voigt's of Poisson's ratio, from the elastic constants [GPa] of both cubic
+    /// salts.
     #[test]
     fn salts_have_the_modulus_of_their_crystals() {
         let library = Library::built_in().unwrap();
@@ -163,7 +164,8 @@ mod tests {
         }
     }
 
-    /// Density, modulus and Poisson's ratio follow; strength and surface energy have no law, and the refusal says what to do.
+    /// Density, modulus and Poisson's ratio follow; strength and surface energy have no law, and the refusal says
+    /// what to do.
     #[test]
     fn a_composition_gives_what_laws_give() {
         let oxides = "composition = { SiO2 = 43.2, Al2O3 = 36.6, CaO = 20.2 }\n";

@@ -53,15 +53,19 @@ define_fields! {
     YieldStrength, "yield_strength", Amount, true, limits("Pa", 0.01, 1e12, "weak gels some 0.1, diamond 1e11");
     SurfaceEnergy, "surface_energy", Amount, true, limits("J/m2", 0.0, 100.0, "clean tungsten 3.3, diamond some 6");
     Viscosity, "viscosity", Amount, false, limits("Pa s", 1e-7, f64::INFINITY, "liquid helium 3e-6");
-    SurfaceTension, "surface_tension", Amount, false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten 2.5");
+    SurfaceTension, "surface_tension", Amount, false, limits("N/m", 1e-5, 30.0, "liquid helium 1e-4, molten tungsten \
+        2.5");
     MeltingPoint, "melting_point", Temperature, false, limits("K", 0.1, 5e4, "helium some 1, carbides 4200");
-    CriticalViscosityTemperature, "critical_viscosity_temperature", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1400 to 1800");
+    CriticalViscosityTemperature, "critical_viscosity_temperature", Temperature, false, limits("K", 0.1, 5e4, "coal \
+        slags 1400 to 1800");
     Liquidus, "liquidus", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1500 to 1900");
     Solidus, "solidus", Temperature, false, limits("K", 0.1, 5e4, "coal slags 1200 to 1500");
-    WorkOfAdhesion, "work_of_adhesion", Amount, false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to impacts 50");
+    WorkOfAdhesion, "work_of_adhesion", Amount, false, limits("J/m2", 0.0, 1e3, "clean tungsten 6.5, fitted to \
+        impacts 50");
     MeltFraction, "melt_fraction", Share, false, limits("1", 0.0, 1.0, "a share of the mass");
     HeatCapacity, "heat_capacity", Amount, false, limits("J/(kg K)", 0.01, 2e5, "hot metals 100, liquid hydrogen 1e4");
-    ThermalConductivity, "thermal_conductivity", Amount, false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, diamond 2000");
+    ThermalConductivity, "thermal_conductivity", Amount, false, limits("W/(m K)", 1e-4, 1e5, "powder in vacuum 1e-3, \
+        diamond 2000");
     HeatOfFusion, "heat_of_fusion", Amount, false, limits("J/kg", 100.0, 5e7, "mercury 1.1e4, boron 4.6e6");
     Emissivity, "emissivity", Share, false, limits("1", 0.0, 1.0, "a black body has 1");
 }
@@ -552,8 +556,8 @@ mod tests {
         }
         assert_eq!(
             read(1, 70e90).unwrap_err(),
-            "m.toml:3:1: p.youngs_modulus: 7e91 is outside the allowed range 1 to 1e13 (soft gels some 10, diamond 1.1e12); \
-             check the exponent and the unit, Pa"
+            "m.toml:3:1: p.youngs_modulus: 7e91 is outside the allowed range 1 to 1e13 (soft gels some 10, diamond \
+                1.1e12); check the exponent and the unit, Pa"
         );
         assert!(read(0, 1e-320).unwrap_err().contains("p.density: 1e-320 is outside"));
     }

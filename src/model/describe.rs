@@ -80,8 +80,8 @@ impl Model {
         let criterion = self.stickiness.as_ref()?.name();
         let term = self.terms.iter().find(|term| term.kind().id == "melting-transition")?;
         Some(format!(
-            "[capture] model = \"{criterion}\" and the effect {} both make the particle sticky by its temperature, and are \
-             multiplied: the temperature counts twice; remove one of them, unless they were fitted together",
+            "[capture] model = \"{criterion}\" and the effect {} both make the particle sticky by its temperature, \
+                and are multiplied: the temperature counts twice; remove one of them, unless they were fitted together",
             term.kind().id
         ))
     }

@@ -121,7 +121,8 @@ impl FusionTemperatures {
 /// Why there is no estimate for a composition: a share [wt%] or ratio [1] that no fitted ash has.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "no fusion temperatures can be estimated: {quantity} is {}, and the fitted ashes have {low} to {high} (shares in wt%)",
+    "no fusion temperatures can be estimated: {quantity} is {}, and the fitted ashes have {low} to {high} (shares in \
+        wt%)",
     (.value * 1e4).round() / 1e4
 )]
 pub struct OutsideAshes {

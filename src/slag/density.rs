@@ -11,8 +11,8 @@
 //!
 //! A glass keeps the volume at which it froze: below [`FROZEN`] the volume of that temperature is taken
 //! (*assumed*; the expansion of the glass itself, some 1 % between 300 and 1000 K, is left out). Measured glasses
-//! of silica, albite, anorthite, diopside and of windows lie within 4 % (tests). Oxides without a volume (`P2O5`, `MnO`,
-//! `B2O3`) count as the mean of the others, up to [`WITHOUT_VOLUME`] mol%; `SO3` leaves before the ash melts.
+//! of silica, albite, anorthite, diopside and of windows lie within 4 % (tests). Oxides without a volume (`P2O5`,
+//! `MnO`, `B2O3`) count as the mean of the others, up to [`WITHOUT_VOLUME`] mol%; `SO3` leaves before the ash melts.
 
 use super::composition::{Composition, Oxide};
 

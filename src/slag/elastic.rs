@@ -8,10 +8,10 @@
 //! [m³/mol], `rho` density [kg/m³], `M` molar mass [kg/mol], `V_t` packing of the ions [1]. Source: A. Makishima,
 //! J. D. Mackenzie, J. Non-Cryst. Solids 12 (1973) 35 and 17 (1975) 147.
 //!
-//! `V_i = 4 pi N_A (x r_M³ + y r_O³)/3` with Pauling's radii, computed in the tests. The `G_i` are from memory, not checked
-//! in print; those of `FeO`, `Fe2O3` and `MnO` were computed here, enthalpy of atomisation over the volume of the
-//! crystal. Measured glasses lie within 12 % in `E` and 0.06 in `nu` (tests). Boron oxide is left out, for which the
-//! scheme is known to fail (J. Non-Cryst. Solids 429 (2015) 20, abstract).
+//! `V_i = 4 pi N_A (x r_M³ + y r_O³)/3` with Pauling's radii, computed in the tests. The `G_i` are from memory, not
+//! checked in print; those of `FeO`, `Fe2O3` and `MnO` were computed here, enthalpy of atomisation over the volume
+//! of the crystal. Measured glasses lie within 12 % in `E` and 0.06 in `nu` (tests). Boron oxide is left out, for
+//! which the scheme is known to fail (J. Non-Cryst. Solids 429 (2015) 20, abstract).
 
 use super::composition::{Composition, Oxide};
 
@@ -84,7 +84,8 @@ mod tests {
         assert_eq!(makishima_mackenzie(&oxides("SiO2 60, B2O3 40"), 2200.0), None);
     }
 
-    /// Measured, as commonly tabulated: silica 72.5 GPa and 0.17, window glass 71 and 0.22, anorthite glass 90 and 0.27.
+    /// Measured, as commonly tabulated: silica 72.5 GPa and 0.17, window glass 71 and 0.22, anorthite glass 90 and
+    /// 0.27.
     #[test]
     fn near_measured_glasses() {
         for (glass, density, [modulus, poisson]) in [

@@ -37,8 +37,8 @@ use fearless_simd::Level;
 /// The law.
 pub static GIORDANO_RUSSELL_DINGWELL: ViscosityLaw = ViscosityLaw {
     name: "giordano-russell-dingwell",
-    stated_for: "SiO2 41 to 79, Al2O3 up to 23, iron as FeO up to 12, MgO up to 32, CaO up to 26, Na2O up to 11, K2O up to 9, \
-                 TiO2 up to 3 and Na2O + K2O at least 1 wt%, 1373 to 1980 K",
+    stated_for: "SiO2 41 to 79, Al2O3 up to 23, iron as FeO up to 12, MgO up to 32, CaO up to 26, Na2O up to 11, K2O \
+        up to 9, TiO2 up to 3 and Na2O + K2O at least 1 wt%, 1373 to 1980 K",
     coefficients: |composition| fulcher(composition).ok_or("its viscosity would not fall with temperature"),
     viscosity,
     viscosities,

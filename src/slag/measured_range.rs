@@ -8,8 +8,8 @@
 use super::composition::{Composition, Oxide};
 
 /// The range in words.
-pub const IN_WORDS: &str = "SiO2 30 to 70, Al2O3 9 to 40, CaO up to 50, MgO up to 38, iron oxides up to 22, K2O up to 6.6, \
-     TiO2 up to 2.3 and all else together up to 1 wt%, 1523 to 2456 K";
+pub const IN_WORDS: &str = "SiO2 30 to 70, Al2O3 9 to 40, CaO up to 50, MgO up to 38, iron oxides up to 22, K2O up to \
+    6.6, TiO2 up to 2.3 and all else together up to 1 wt%, 1523 to 2456 K";
 
 /// Temperatures of the measurements [K].
 pub const MEASURED_TEMPERATURES: [f64; 2] = [1523.0, 2456.5];

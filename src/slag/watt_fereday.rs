@@ -34,7 +34,8 @@ const POLE: f64 = 150.0 + 273.15;
 /// The law.
 pub static WATT_FEREDAY: ViscosityLaw = ViscosityLaw {
     name: "watt-fereday",
-    stated_for: "SiO2 30 to 60, Al2O3 15 to 35, Fe2O3 3 to 30, CaO 2 to 30 and MgO 1 to 10 wt% of the five, 1423 to 1873 K",
+    stated_for: "SiO2 30 to 60, Al2O3 15 to 35, Fe2O3 3 to 30, CaO 2 to 30 and MgO 1 to 10 wt% of the five, 1423 to \
+        1873 K",
     coefficients: |composition| line(composition).ok_or("it has too little SiO2 and Al2O3"),
     viscosity,
     viscosities,

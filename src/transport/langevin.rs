@@ -6,8 +6,8 @@
 //! `A = div R + n div(n sigma_2 c_3) (w_n² - 1)`, `St = tau_p/tau_w`,
 //!
 //! with `R = sigma_3 I + (c_1 sigma_2 - sigma_3) n n + (sigma_1 - sigma_3) s s` of the standard deviations [m/s] along
-//! the flow (`s`), away from the wall (`n`) and across, `c_1` and `c_3` the shape of the distribution away from the wall
-//! ([`super::near_wall`]) and `tau_p` the relaxation time of the particle [s]. The time of the walk is `tau_w =
+//! the flow (`s`), away from the wall (`n`) and across, `c_1` and `c_3` the shape of the distribution away from the
+//! wall ([`super::near_wall`]) and `tau_p` the relaxation time of the particle [s]. The time of the walk is `tau_w =
 //! tau/(c_1² + 2 c_3²)` [s], so that `tau` is the integral time of the velocity away from the wall: the cube of a walk
 //! forgets three times as fast. `A` [1/s] is the drift correction. Without it particles gather where the fluctuations
 //! are weak; with it a tracer stays mixed, since the uniform density times the normal distribution `f` of `w` is a
@@ -15,15 +15,15 @@
 //! heavy particle does not follow the gas and sees less of the drift, by `1 + St`.
 //!
 //! Bocksell and Loth, Int. J. Multiphase Flow 32 (2006) 1234; Dehbi, Int. J. Multiphase Flow 34 (2008) 819 and 36
-//! (2010), both with `c_3 = 0`, which lets too few fine particles arrive (as Jin, Potts and Reeks, Phys. Fluids 27 (2015)
-//! 053305, found of such walks); second source of the drift: the well-mixed condition of Thomson (1987), from which it is
-//! derived above. The
+//! (2010), both with `c_3 = 0`, which lets too few fine particles arrive (as Jin, Potts and Reeks, Phys. Fluids 27
+//! (2015) 053305, found of such walks); second source of the drift: the well-mixed condition of Thomson (1987), from
+//! which it is derived above. The
 //! components are drawn independently: the shear stress of the fluctuations is left out, and with it the drift along
 //! the flow.
 //!
 //! A step is exact for a `tau` and `A` that do not change in it, however long it is:
-//! `w' = a w + (1 - a) tau_w A/(1 + St) + sqrt(1 - a²) xi`, `a = exp(-dt/tau_w)`, `xi` standard normal. The path takes the
-//! fluctuation from the walk of the step and the place that the particle has reached in it; steps of up to
+//! `w' = a w + (1 - a) tau_w A/(1 + St) + sqrt(1 - a²) xi`, `a = exp(-dt/tau_w)`, `xi` standard normal. The path
+//! takes the fluctuation from the walk of the step and the place that the particle has reached in it; steps of up to
 //! [`GasTurbulence::longest_step`] then give a deposition that does not depend on them (measured, see the tests).
 
 use super::near_wall::{Core, WallLayer};

@@ -11,22 +11,22 @@
 //! | time scale | `tau = (nu/u_tau²) 10` up to `y+ = 5`, `(nu/u_tau²) (7.122 + 0.5731 y+ - 0.00129 y+²)` above |
 //!
 //! `sigma_2` is fitted to the direct simulation of a channel at a Reynolds number of 944 (friction velocity and half
-//! height; Hoyas and Jiménez, Phys. Fluids 18 (2006) 011702, their data), within 3 % up to `y+ = 80` with the core below;
-//! at 178 it is a third less at the wall. Deposition of fine particles goes with its fourth power. `sigma_1` and
+//! height; Hoyas and Jiménez, Phys. Fluids 18 (2006) 011702, their data), within 3 % up to `y+ = 80` with the core
+//! below; at 178 it is a third less at the wall. Deposition of fine particles goes with its fourth power. `sigma_1` and
 //! `sigma_3` are the fits that Dehbi, Int. J. Multiphase Flow 34 (2008) 819, uses for `y+ < 100`; the time scale is of
 //! Kallio and Reeks, Int. J. Multiphase Flow 15 (1989) 433, for `y+ < 200`: both from memory, not re-read.
 //!
 //! Rare sweeps reach the wall: the velocity away from it has a flatness of 27 at the wall, 12 at `y+ = 5`, 5 at 19 and
-//! below 3.6 beyond 35 (Moser, Kim and Mansour, Phys. Fluids 11 (1999) 943, their data at a Reynolds number of 178; 22 at the
-//! wall in Kim, Moin and Moser, J. Fluid Mech. 177 (1987) 133). Of a standard normal number `z` it is
+//! below 3.6 beyond 35 (Moser, Kim and Mansour, Phys. Fluids 11 (1999) 943, their data at a Reynolds number of 178;
+//! 22 at the wall in Kim, Moin and Moser, J. Fluid Mech. 177 (1987) 133). Of a standard normal number `z` it is
 //!
 //! `sigma_2 (c_1 z + c_3 (z³ - 3 z))`, `c_3 = 0.2 exp(-(y+/13.9)^0.9)`, `c_1² + 6 c_3² = 1`,
 //!
 //! with a flatness within 4 % of those data up to `y+ = 35`. The skewness, -0.24 to 0.34 there, is left out.
 //!
 //! Between `y+ = 30` and 100 the fluctuations become those of the core, the same in all directions ([`Core`]). Without
-//! a core they are `u_tau`, which is the normal fluctuation at `y+ = 70` to 100, and beyond `y+ = 200` the time grows in
-//! proportion to the distance, as the eddy diffusivity `sigma_2² tau` does in the logarithmic layer.
+//! a core they are `u_tau`, which is the normal fluctuation at `y+ = 70` to 100, and beyond `y+ = 200` the time
+//! grows in proportion to the distance, as the eddy diffusivity `sigma_2² tau` does in the logarithmic layer.
 //!
 //! At `y+ = 80` that diffusivity is 1.5 times the `0.41 y+` of the logarithmic layer, from 100 on 0.8 to 1.4 times.
 //!
@@ -192,7 +192,8 @@ mod tests {
     }
 
     /// Known of direct simulations of channels (Kim, Moin and Moser 1987; Moser, Kim and Mansour 1999): at the wall
-    /// `u' = 0.36 y+` to `0.40 y+`, `w' = 0.2 y+`; largest `u'` 2.6 to 2.8 at y+ of 13 to 18, and `w'` 1.1 to 1.4 at 35 to
+    /// `u' = 0.36 y+` to `0.40 y+`, `w' = 0.2 y+`; largest `u'` 2.6 to 2.8 at y+ of 13 to 18, and `w'` 1.1 to 1.4 at
+    /// 35 to
     /// 50. The fit of `w'` is broad and has its largest value at 29.
     #[test]
     fn profiles_are_those_of_simulated_channels() {
@@ -210,8 +211,8 @@ mod tests {
         assert!((0.15..0.25).contains(&(spanwise_deviation(near) / near)));
     }
 
-    /// The normal deviation at a Reynolds number of 944 (Hoyas and Jiménez 2006, their data), the flatness at 178 (Moser,
-    /// Kim and Mansour 1999, theirs).
+    /// The normal deviation at a Reynolds number of 944 (Hoyas and Jiménez 2006, their data), the flatness at 178
+    /// (Moser, Kim and Mansour 1999, theirs).
     #[test]
     fn normal_velocity_is_that_of_simulated_channels() {
         for (plus, flatness) in
@@ -241,8 +242,8 @@ mod tests {
         }
     }
 
-    /// In the logarithmic layer, beyond what the wall changes, the eddy diffusivity is `0.41 y+` over a turbulent Schmidt
-    /// number of 0.7 to 1.2.
+    /// In the logarithmic layer, beyond what the wall changes, the eddy diffusivity is `0.41 y+` over a turbulent
+    /// Schmidt number of 0.7 to 1.2.
     #[test]
     fn mixing_in_the_logarithmic_layer_is_that_of_von_karman() {
         for plus in [100.0, 150.0, 200.0, 1000.0] {

@@ -16,8 +16,8 @@ const DEFAULT_LAW: &str = "thornton-ning";
 /// Scores laws, a model or another program on all measured sets of the project
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  nearwall bench                               all laws, and where the default one fails\n  \
-    nearwall bench bons                          the same for another law\n  \
+    after_help = "Examples:\n  nearwall bench                               all laws, and where the default one \
+        fails\n  nearwall bench bons                          the same for another law\n  \
     nearwall bench my.toml                       the laws of a model file with the materials of each set\n  \
     nearwall bench --external 'python3 law.py'   a program that reads impacts and writes e_n,e_t,p\n\n\
     A program reads the table that --impacts prints on standard input and writes a heading with e_n, e_t and p (and\n\

@@ -26,7 +26,8 @@ use super::{CommandResult, progress};
     nearwall diagnose deposits.csv --impacts runs --model wax.toml --out diagnosis --draws 39\n\n\
     Writes report.html, diagnosis.json and extended.toml into the folder. The data file needs v_n and at least one of\n\
     e_n, e_t, outcome or capture_efficiency; every other column is a possible cause. docs/reference/data-file.md\n\
-    describes the data file and --columns, docs/how-to/diagnosis.md the method. With --case the rows are experiments of a rig:\n\
+    describes the data file and --columns, docs/how-to/diagnosis.md the method. With --case the rows are experiments \
+    of a rig:\n\
     settings of the case, and observables as captured@WALL (docs/how-to/rig-diagnosis.md).")]
 pub struct Arguments {
     /// The measured impacts

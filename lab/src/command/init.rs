@@ -9,7 +9,8 @@ use super::CommandResult;
 /// Writes a commented case of your field that runs, and prints the next command
 #[derive(clap::Args)]
 #[command(
-    after_help = "Example:\n  nearwall init superheater\n  nearwall simulate superheater/superheater.toml -o superheater/results\n\n\
+    after_help = "Example:\n  nearwall init superheater\n  nearwall simulate superheater/superheater.toml -o \
+        superheater/results\n\n\
     Existing files are not overwritten."
 )]
 pub struct Arguments {

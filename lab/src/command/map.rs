@@ -40,10 +40,11 @@ pub struct Arguments {
 fn after_help() -> String {
     let inputs: Vec<String> = INPUTS.iter().map(|input| format!("{} [{}]", input.name, input.unit)).collect();
     format!(
-        "Examples:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set T_p=1700\n  \
-         nearwall map nearWall.toml --x v_n=0.1:30 --y d=1e-6:1e-3 --slider T_p=900:1700:9\n\n\
+        "Examples:\n  nearwall map nearWall.toml --wall slagWall --x T_w=1200:1800 --y conversion=0:1 --set \
+            T_p=1700\n  nearwall map nearWall.toml --x v_n=0.1:30 --y d=1e-6:1e-3 --slider T_p=900:1700:9\n\n\
          Writes map.html and map.csv into the folder. The inputs are\n{}.\n\
-         An axis has {DEFAULT_POINTS} points, a slider {SLIDER_POINTS}, evenly spaced in the logarithm from a ratio of\n\
+         An axis has {DEFAULT_POINTS} points, a slider {SLIDER_POINTS}, evenly spaced in the logarithm from a ratio \
+         of\n\
          30 of both ends on. docs/how-to/map.md describes the numbers.",
         inputs.join(", ")
     )

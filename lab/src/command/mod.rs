@@ -1,5 +1,5 @@
-//! The command `nearwall`: one file for each subcommand. This file selects it and prints errors. The binary and the Python
-//! package call [`run`].
+//! The command `nearwall`: one file for each subcommand. This file selects it and prints errors. The binary and the
+//! Python package call [`run`].
 
 mod bench;
 mod check;
@@ -53,8 +53,8 @@ subcommands! {
     Check: check,
 }
 
-/// Runs the command with its arguments, of which the first is its own name, and returns its exit status. 0: done, 1: the
-/// input is at fault, 2: wrong usage.
+/// Runs the command with its arguments, of which the first is its own name, and returns its exit status. 0: done, 1:
+/// the input is at fault, 2: wrong usage.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let command = match Command::try_parse_from(arguments) {
         Ok(command) => command,

@@ -47,7 +47,8 @@ fn after_help() -> String {
         "Examples:\n  nearwall predict --model wax.toml impacts.csv -o predicted.csv\n  \
          nearwall predict --model diagnosis/extended.toml --draws diagnosis/draws impacts.csv -o predicted.csv\n\n\
          impacts.csv needs a column v_n [m/s]. Optional columns are wall and the other inputs:\n{}.\n\
-         Every other column is kept. A row that cannot be used is reported on standard error and left out. The command\n\
+         Every other column is kept. A row that cannot be used is reported on standard error and left out. The \
+         command\n\
          fails only if no row can be used.",
         inputs.join(", ")
     )

@@ -12,11 +12,13 @@ use super::{CommandResult, progress};
 /// Ranks the numbers of a case by their effect on what its walls capture
 #[derive(clap::Args)]
 #[command(
-    after_help = "Examples:\n  nearwall sensitivity tutorials/standalone/gasifier.toml --clean-walls -o gasifierNumbers\n  \
-    nearwall sensitivity tutorials/standalone/waxRig.toml --set gas.temperature=358.15 \\\n    \
+    after_help = "Examples:\n  nearwall sensitivity tutorials/standalone/gasifier.toml --clean-walls -o \
+        gasifierNumbers\n  nearwall sensitivity tutorials/standalone/waxRig.toml --set gas.temperature=358.15 \\\n    \
     --set particles.temperature=358.15 --set walls.target.temperature=358.15\n\n\
-    Moves each number of the materials, the model and the case down and up within its range, and writes sensitivity.csv,\n\
-    sensitivity.json and report.html into the folder. docs/how-to/forecast.md describes the ranges. A [sweep] is left out."
+    Moves each number of the materials, the model and the case down and up within its range, and writes \
+    sensitivity.csv,\n\
+    sensitivity.json and report.html into the folder. docs/how-to/forecast.md describes the ranges. A [sweep] is left \
+    out."
 )]
 pub struct Arguments {
     /// The case file

@@ -353,7 +353,8 @@ mod tests {
         assert_eq!(
             reasons(&data),
             [
-                "5: e_n `1.5` is not a number; numbers have decimal commas here, or set decimal = \".\" in the column map"
+                "5: e_n `1.5` is not a number; numbers have decimal commas here, or set decimal = \".\" in the column \
+                    map"
             ]
         );
         let [first, second] = data.rows[..] else { unreachable!() };

@@ -140,7 +140,8 @@ impl NoteCounts {
                 (self.input_errors[place], self.large_errors[place], INPUTS[input].name);
             if stated > 0 && stated < rows {
                 notes.push(format!(
-                    "the standard error of {input} is given in {stated} of {rows} rows; in the others {input} counts as exact"
+                    "the standard error of {input} is given in {stated} of {rows} rows; in the others {input} counts \
+                        as exact"
                 ));
             }
             // A tangential speed near 0 may well have a larger error.

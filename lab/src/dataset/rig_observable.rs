@@ -42,8 +42,8 @@ pub enum RigQuantity {
 }
 
 /// The names for a message.
-pub(super) const OBSERVABLE_NAMES: &str = "captured, capture_efficiency, mean_e_n, mean_e_t, share_e_n_below_0.6, quantile_0.5_e_n, \
-                                mean_conversion, captured_from_Z1_to_Z2 and captured_d_D1_to_D2";
+pub(super) const OBSERVABLE_NAMES: &str = "captured, capture_efficiency, mean_e_n, mean_e_t, share_e_n_below_0.6, \
+    quantile_0.5_e_n, mean_conversion, captured_from_Z1_to_Z2 and captured_d_D1_to_D2";
 
 impl RigQuantity {
     /// Reads a name without its wall; `None` for another name.

@@ -45,8 +45,8 @@ pub(super) enum RowFault {
     #[error("{name} is {value}, above {most}; check its unit")]
     Above { name: &'static str, value: f64, most: f64 },
     #[error(
-        "{name} = {value} m: no length of an impact is above {most} m; state the unit, as `{name} [um]` in the heading or \
-         in a column map"
+        "{name} = {value} m: no length of an impact is above {most} m; state the unit, as `{name} [um]` in the \
+            heading or in a column map"
     )]
     TooLong { name: &'static str, value: f64, most: f64 },
     #[error("unterminated quotation mark: a quoted cell contains the following rows")]

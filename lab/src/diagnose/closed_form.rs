@@ -1,9 +1,9 @@
 //! Closed forms in the place of a free curve over one column: `e_n = a We^b` rather than eight heights.
 //!
 //! Every form of the library ([`FORMS`]) is fitted in each way in which it can act, and competes with the free curve by
-//! evidence (Schwarz 1978). Of `e_n` and `e_t` the sum of weighted squares is minimised: a form is linear in most of its
-//! parameters, which a least-squares solution gives for each place of the others (variable projection; Golub and Pereyra
-//! 1973). Captures have a threshold with a width, by the likelihood of the outcomes.
+//! evidence (Schwarz 1978). Of `e_n` and `e_t` the sum of weighted squares is minimised: a form is linear in most of
+//! its parameters, which a least-squares solution gives for each place of the others (variable projection; Golub and
+//! Pereyra 1973). Captures have a threshold with a width, by the likelihood of the outcomes.
 
 use nalgebra::{DMatrix, DVector};
 

@@ -1,4 +1,5 @@
-//! What a finding says of a closed form: its equation with numbers, how sure the form is, and the law that it resembles.
+//! What a finding says of a closed form: its equation with numbers, how sure the form is, and the law that it
+//! resembles.
 
 use statrs::distribution::{ContinuousCDF, StudentsT};
 

@@ -3,8 +3,8 @@
 //! The root of the profile ([`super::profile`]) reaches Student's quantile at the ends, times the
 //! square root of the factor by which units that scatter more than the model says widen the
 //! variance ([`super::covariance`]). Parameters that were left at their defaults are free beside
-//! the others, and so is the ceiling of captures: the data do not know that the defaults are right. An end at the bound of the search
-//! range is that bound. Models that draw at random take too long for profiles: their intervals are
+//! the others, and so is the ceiling of captures: the data do not know that the defaults are right. An end at the
+//! bound of the search range is that bound. Models that draw at random take too long for profiles: their intervals are
 //! symmetric in the coordinate.
 
 use std::ops::Range;

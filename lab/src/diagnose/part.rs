@@ -159,8 +159,8 @@ impl FittedPart {
             let (one, two) = (name(*one), name(*two));
             let together = if *correlation > 0.0 { "in the same direction" } else { "against each other" };
             format!(
-                "These data determine only a combination of {one} and {two}: both can change {together} at almost no cost \
-                 (correlation {correlation:.3})."
+                "These data determine only a combination of {one} and {two}: both can change {together} at almost no \
+                    cost (correlation {correlation:.3})."
             )
         };
         self.inseparable.iter().map(sentence).collect()

@@ -25,8 +25,8 @@ const IMPACTS: Words = Words {
     subject: "model",
     data: "data",
     unseen: "rows",
-    carries: "No effect of the library and no column carries the misfit: either the stated errors are too small, or the cause is \
-              none of these.",
+    carries: "No effect of the library and no column carries the misfit: either the stated errors are too small, or \
+        the cause is none of these.",
 };
 
 /// Whether the base model is refuted by its own errors.
@@ -147,8 +147,8 @@ pub(super) fn fit_sentence(fit: &Fit) -> String {
         some => format!("; the largest misfits in standard errors: {}", some.join(", ")),
     };
     format!(
-        "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance once in \
-         {:.0e}{misfits}. ",
+        "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance \
+            once in {:.0e}{misfits}. ",
         1.0 / p.max(1e-300)
     )
 }

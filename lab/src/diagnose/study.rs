@@ -3,8 +3,8 @@
 //! The gain needs rows that neither a choice nor a fit has seen. All rows choose the causes, and if
 //! three quarters alone name the same, the extended model is fitted to those; its file is then run on
 //! the rest. Of a large file three quarters choose. In all other cases the gain is cross-validated: a
-//! choice, a fit and a model file for each part of the units without that part. Where groups share an error, whole groups are
-//! held out: other rows of the same group would tell its error.
+//! choice, a fit and a model file for each part of the units without that part. Where groups share an error, whole
+//! groups are held out: other rows of the same group would tell its error.
 
 use std::sync::Arc;
 

@@ -22,9 +22,12 @@ pub fn text(
     let [all, used] = result.readings;
     let sources = result.sources.len();
     let mut text = format!(
-        "{used} of {all} readings of {sources} sources are decided by all and scored. Each source is predicted with numbers and\n\
-         a scatter that were fitted to the other sources, and counts once. Beyond level: mean log score of a reading less\n\
-         that of the mean of the other sources [nats]. In band: readings of e_n and e_t in the 95 % band of the scatter.\n"
+        "{used} of {all} readings of {sources} sources are decided by all and scored. Each source is predicted with \
+            numbers and\n\
+         a scatter that were fitted to the other sources, and counts once. Beyond level: mean log score of a reading \
+         less\n\
+         that of the mean of the other sources [nats]. In band: readings of e_n and e_t in the 95 % band of the \
+         scatter.\n"
     );
     for (entry, ranges) in chosen {
         text += &failures(entry, ranges, all_sets);
@@ -59,7 +62,8 @@ fn captures(result: &BenchmarkResult) -> Option<Table> {
         ("worst set", &|entry| worst(entry)),
         ("fitted numbers", &|entry| fitted(entry)),
     ];
-    let caption = "Laws of capture by a melt, the worst first: captures in which a melt may matter, of sets that have what the law needs";
+    let caption = "Laws of capture by a melt, the worst first: captures in which a melt may matter, of sets that have \
+        what the law needs";
     (!entries.is_empty()).then(|| Table::of_items(caption, 1, &entries, &columns))
 }
 

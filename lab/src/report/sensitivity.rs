@@ -74,9 +74,10 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
         Quality::Sourced | Quality::Stated => RowStatus::Good,
     });
     let table = Table {
-        caption: "Marked: an assumed number, whose range is assumed too. × and + stand before a factor and a difference \
-                  that apply to all values of a table or a list."
-            .to_owned(),
+        caption:
+            "Marked: an assumed number, whose range is assumed too. × and + stand before a factor and a \
+            difference that apply to all values of a table or a list."
+                .to_owned(),
         header,
         rows: rows.iter().map(cells).collect(),
         text_columns: 3,

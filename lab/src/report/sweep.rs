@@ -36,8 +36,8 @@ fn fault(path: &Path, error: &csv::Error) -> SweepError {
     let reason = match error.kind() {
         csv::ErrorKind::Io(error) => error.to_string(),
         csv::ErrorKind::UnequalLengths { expected_len, len, .. } => format!(
-            "{len} cells where the header has {expected_len}; write one cell a column, \"-\" where there is nothing, and \
-             put quotes around a text with a comma"
+            "{len} cells where the header has {expected_len}; write one cell a column, \"-\" where there is nothing, \
+                and put quotes around a text with a comma"
         ),
         csv::ErrorKind::Utf8 { .. } => "not UTF-8; save the table as UTF-8".to_owned(),
         _ => error.to_string(),

@@ -231,8 +231,9 @@ fn size(value: &Value) -> Option<f64> {
 mod tests {
     use super::*;
 
-    const CASE: &str = "[gas]\nvelocity = [0, 3, -4]\ntemperature = 300\n[particles]\nspeed = { distribution = \"uniform\", \
-                        min = 1, max = 3 }\ndiameter = { distribution = \"rosin-rammler\", scale = 60e-6, exponent = 2 }\n\
+    const CASE: &str = "[gas]\nvelocity = [0, 3, -4]\ntemperature = 300\n[particles]\nspeed = { distribution \
+        = \"uniform\", min = 1, max = 3 }\ndiameter = { distribution = \"rosin-rammler\", scale = 60e-6, exponent = 2 \
+        }\n\
                         angle_deg = 88\ntemperature = 2000\nposition = { shape = \"point\", at = [0, 0, 1] }\n\
                         [[walls]]\nname = \"plate\"\ntemperature = { axis = \"z\", at = [0, 1], value = [400, 500] }\n";
 

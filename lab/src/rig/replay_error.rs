@@ -13,7 +13,8 @@ pub enum ReplayError {
     History(#[from] HistoryError),
     /// An experiment has no folder.
     #[error(
-        "{place}: there is no folder {}; the column `experiment` names the sub-folders of --impacts with the recorded cases{}",
+        "{place}: there is no folder {}; the column `experiment` names the sub-folders of --impacts with the recorded \
+            cases{}",
         .folder.display(), list(": there are ", .found)
     )]
     NoCase {
@@ -25,7 +26,8 @@ pub enum ReplayError {
         found: Vec<String>,
     },
     /// The model has no wall of this name.
-    #[error("{}: the run's model has a wall `{wall}`, the model file has none; give the model file of the run", .file.display())]
+    #[error("{}: the run's model has a wall `{wall}`, the model file has none; give the model file of the \
+        run", .file.display())]
     NoWall {
         /// The record.
         file: PathBuf,
@@ -34,8 +36,8 @@ pub enum ReplayError {
     },
     /// A reading is of a patch without recorded impacts.
     #[error(
-        "{place}: `{column}`: {} has no impact on a patch of this name{}; what follows the @ is a patch that `record` of \
-         nearWallInteraction includes",
+        "{place}: `{column}`: {} has no impact on a patch of this name{}; what follows the @ is a patch that `record` \
+            of nearWallInteraction includes",
         .file.display(), list(", only on ", .found)
     )]
     NoPatch {
@@ -50,8 +52,8 @@ pub enum ReplayError {
     },
     /// The model file decides otherwise than the record.
     #[error(
-        "{}: the model file is not the one of the run: {reason}; give the model file with which the case was run (walls with \
-         a memory cannot be replayed)",
+        "{}: the model file is not the one of the run: {reason}; give the model file with which the case was run \
+            (walls with a memory cannot be replayed)",
         .file.display()
     )]
     OtherModel {
@@ -61,7 +63,8 @@ pub enum ReplayError {
         reason: String,
     },
     /// The model cannot decide an impact.
-    #[error("{}:{line}: the model file cannot decide this impact: {reason}; give the model file of the run", .file.display())]
+    #[error("{}:{line}: the model file cannot decide this impact: {reason}; give the model file of the \
+        run", .file.display())]
     Undecided {
         /// The record.
         file: PathBuf,

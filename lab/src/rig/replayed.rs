@@ -106,9 +106,9 @@ impl ReplayedRig {
             largest(&|one| one.without_record).filter(|(percent, _)| *percent >= 0.1)
         {
             notes.push(format!(
-                "Without a record: the extended model lets up to {percent:.1} % of the injected mass (experiment `{name}`) \
-                 go where the run caught it. Later impacts of it are unknown and counted as not caught; run the cases with \
-                 extended.toml, and diagnose again with that record."
+                "Without a record: the extended model lets up to {percent:.1} % of the injected mass (experiment \
+                    `{name}`) go where the run caught it. Later impacts of it are unknown and counted as not caught; \
+                    run the cases with extended.toml, and diagnose again with that record."
             ));
         }
         let later = |one: &ReplayAccount| if one.caught > 0.0 { one.caught_later / one.caught } else { 0.0 };
@@ -116,15 +116,16 @@ impl ReplayedRig {
             let of = |one: &ReplayAccount| if one.caught > 0.0 { one.doubtful / one.caught } else { 0.0 };
             let (doubtful, other) = largest(&of).unwrap_or_default();
             notes.push(format!(
-                "Up to {percent:.1} % of the caught mass (experiment `{name}`) is caught at a second or later impact: exact for a \
-                 change of capture, approximate for a change of rebounds, which makes up to {doubtful:.1} % of the caught mass \
-                 doubtful (experiment `{other}`)."
+                "Up to {percent:.1} % of the caught mass (experiment `{name}`) is caught at a second or later impact: \
+                    exact for a change of capture, approximate for a change of rebounds, which makes up to \
+                    {doubtful:.1} % of the caught mass doubtful (experiment `{other}`)."
             ));
         }
         if let Some((percent, name)) = largest(&|one| one.led_away).filter(|(percent, _)| *percent >= 0.1) {
             notes.push(format!(
-                "Changed rebounds lead up to {percent:.1} % of the injected mass (experiment `{name}`) to where the run recorded no \
-                 impact. It is counted as not caught from there on; run the cases with extended.toml to see."
+                "Changed rebounds lead up to {percent:.1} % of the injected mass (experiment `{name}`) to where the \
+                    run recorded no impact. It is counted as not caught from there on; run the cases with \
+                    extended.toml to see."
             ));
         }
         Ok(notes)
@@ -153,8 +154,8 @@ impl ReplayedRig {
             }
             let [low, high] = ends.map(|end| end[axis]);
             self.notes.push(format!(
-                "captured_from_Z1_to_Z2@{patch} is along {}, in which the recorded impacts extend farthest: {low:.4} to \
-                 {high:.4} m.",
+                "captured_from_Z1_to_Z2@{patch} is along {}, in which the recorded impacts extend farthest: {low:.4} \
+                    to {high:.4} m.",
                 ["x", "y", "z"][axis]
             ));
         }
@@ -295,7 +296,8 @@ mod tests {
     /// fifth of those 6.93 K below.
     fn model(temperature: f64, e_n: f64) -> Model {
         let text = format!(
-            "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\nmodel = \"constant\"\n\
+            "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\nmodel \
+                = \"constant\"\n\
              e_n = {e_n}\n[tangential]\nmodel = \"constant\"\ne_t = 0.8\n[[effects]]\nkind = \"melting-transition\"\n\
              temperature = {temperature}\nwidth = 5\nsoftening = 0\n"
         );

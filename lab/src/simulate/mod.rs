@@ -3,10 +3,11 @@
 //! A [`Case`] is read from a TOML file. [`run_once`] draws its particles and follows each through
 //! the gas ([`gas`]) with drag ([`drag`]), weight and heat ([`heating`]);
 //! [`nearwall::Model::resolve`] decides every hit. [`crate::results::standalone`] sums up the
-//! [`Trajectory`]s. Turbulence, thermophoresis and Brownian motion are those of [`nearwall::transport`]. Particles do not interact with each other and do not act on the gas. A
-//! `[deposit]` gives the walls a memory: the particles are released over a duration, and at the end
-//! of each of its steps the captured ones are added to the walls ([`DepositSettings`]). Each
-//! particle has its own random draws, so that results are the same bits on any number of threads.
+//! [`Trajectory`]s. Turbulence, thermophoresis and Brownian motion are those of [`nearwall::transport`]. Particles
+//! do not interact with each other and do not act on the gas. A `[deposit]` gives the walls a memory: the particles
+//! are released over a duration, and at the end of each of its steps the captured ones are added to the walls
+//! ([`DepositSettings`]). Each particle has its own random draws, so that results are the same bits on any number of
+//! threads.
 
 mod case;
 mod conversion;

@@ -98,7 +98,8 @@ mod tests {
     fn errors_are_taken_out_and_everything_else_stays_at_its_place() {
         let text = "[gas]\ntemperature = { value = 1500, error = 30 } # K\nvelocity = { value = [0, 2], error = 0.1 }\n\
                     [particles]\nspeed = { distribution = \"normal\", mean = 2, error = 0.1, deviation = 1 }\n\
-                    [[walls]]\nname = \"plate\"\ntemperature = { error = 5, value = 300 }\n[run]\na = { value = 1, error = 2 }\n";
+                    [[walls]]\nname = \"plate\"\ntemperature = { error = 5, value = 300 }\n[run]\na = { value = 1, \
+                    error = 2 }\n";
         let (left, errors) = split_errors(text);
         let table: toml_edit::DocumentMut = left.parse().unwrap();
         assert_eq!(table["gas"]["temperature"].as_integer(), Some(1500));

@@ -170,7 +170,8 @@ mod tests {
     use nearwall::model::Model;
 
     const BASE: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.plate]\nmaterial = \"pyrex\"\n\
-        [normal]\nmodel = \"constant\"\ne_n = 0.5\nwork_of_adhesion = 0.2\n[tangential]\nmodel = \"constant\"\ne_t = 1\n\
+        [normal]\nmodel = \"constant\"\ne_n = 0.5\nwork_of_adhesion = 0.2\n[tangential]\nmodel = \"constant\"\ne_t = \
+        1\n\
         [[effects]]\nkind = \"oblique-angle\"\nstrength = 0.3\n";
 
     /// Every law of the library can be put on the materials of a set with each of its trial numbers.

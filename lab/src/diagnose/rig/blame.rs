@@ -191,7 +191,8 @@ pub(super) fn sentences(parties: &Parties, blame: &[Blame], named: &[&str]) -> S
         return text + &measures(blame);
     } else {
         text += &format!(
-            " It is the fault of the wall law with a probability of {wall_law:.2}, of the case with {case:.2}, of both with {both:.2}."
+            " It is the fault of the wall law with a probability of {wall_law:.2}, of the case with {case:.2}, of \
+                both with {both:.2}."
         );
     }
     text + &measures(blame)
@@ -209,7 +210,8 @@ fn measures(blame: &[Blame]) -> String {
         return String::new();
     }
     format!(
-        " To tell the case from the wall law: {}; or the same shots on a second wall, on which a wrong case stays wrong.",
+        " To tell the case from the wall law: {}; or the same shots on a second wall, on which a wrong case stays \
+            wrong.",
         all.join("; ")
     )
 }

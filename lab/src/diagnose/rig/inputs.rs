@@ -152,7 +152,8 @@ impl RigInputs {
         self.input(input)?.range
     }
 
-    /// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a layer.
+    /// The value of an input that does not vary and that an impact does not have by itself, as the thickness of a
+    /// layer.
     pub fn present(&self, input: &str) -> Option<f64> {
         let absent =
             INPUTS.iter().find(|one| one.name == input).map(|one| (one.value)(&Impact::default()))?;

@@ -4,8 +4,8 @@
 //! → search among explanations and their probabilities (`rig_search`, `choice`; both engines share
 //! `explanation` and `explanations`) → draws of the parameters (`posterior`) → gain on held-out
 //! experiments (`gain`) → record with the model file. The predictions come from a [`Forward`]:
-//! particles followed anew or recorded impacts decided again. Candidates are those of the diagnosis of impacts. Method and limits:
-//! `docs/how-to/rig-diagnosis.md`.
+//! particles followed anew or recorded impacts decided again. Candidates are those of the diagnosis of impacts.
+//! Method and limits: `docs/how-to/rig-diagnosis.md`.
 
 mod addition;
 mod blame;

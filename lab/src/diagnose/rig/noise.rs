@@ -410,7 +410,8 @@ impl Data {
             let deviation = if group.counted { 0.5 * square.sqrt() } else { square.sqrt() };
             let of = if group.counted { "their counts (at a share of one half)" } else { "their errors" };
             (*square >= group.unit).then(|| {
-                format!("Readings of {name} scatter from run to run by {deviation:.2e} beyond {of}: all causes are judged with it.")
+                format!("Readings of {name} scatter from run to run by {deviation:.2e} beyond {of}: all causes are \
+                    judged with it.")
             })
         };
         self.groups.iter().zip(&scatter.between).filter_map(note).collect()

@@ -133,7 +133,8 @@ impl RigFindings<'_> {
         let (parties, blame) = (Parties::of(choice), blame::blame(study, choice)?);
         diagnosis.verdict = verdict(&diagnosis, counts, (&parties, &blame));
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
-            diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and diagnose their new record for more.";
+            diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and \
+                diagnose their new record for more.";
         }
         let scatter = study.data.scatter(&extended, &vec![1.0; study.data.experiments]);
         Ok(RigDiagnosis {
@@ -389,8 +390,8 @@ fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
         others => format!(" These experiments do not exclude {}.", others.join(" or ")),
     };
     format!(
-        "The wall law is not needed for this: the readings fit {key} = {} {unit} instead of {from}, which has an error of \
-         {}. Where experiments set it, theirs is off in the same way. What tells it: {instrument}.{others}",
+        "The wall law is not needed for this: the readings fit {key} = {} {unit} instead of {from}, which has an \
+            error of {}. Where experiments set it, theirs is off in the same way. What tells it: {instrument}.{others}",
         found.unwrap_or_default(),
         rounded(*error)
     )
@@ -428,7 +429,8 @@ fn explain(finding: &Finding) -> String {
             )
         }
         (None, Some(("level", what))) => format!(
-            "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a constant."
+            "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a \
+                constant."
         ),
         _ => finding.cause.clone(),
     };
@@ -437,7 +439,8 @@ fn explain(finding: &Finding) -> String {
         others => format!(" These experiments do not exclude {}.", others.join(" or ")),
     };
     format!(
-        "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much at most once in {:.0}.{others}",
+        "{what} It acts most on {}; chi-square falls by {:.1}. By chance any of the candidates gains as much at most \
+            once in {:.0}.{others}",
         finding.observable,
         finding.chi_square,
         1.0 / finding.q_value.max(1e-9)
@@ -453,8 +456,8 @@ const RIG: Words = Words {
     subject: "wall law",
     data: "experiments",
     unseen: "experiments",
-    carries: "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not at the wall; \
-              check the gas, the particles' size and speed, and what counts as captured.",
+    carries: "No wall law of the library carries the misfit: the errors are larger than stated, or the cause is not \
+        at the wall; check the gas, the particles' size and speed, and what counts as captured.",
 };
 
 /// The words where nothing is named.
@@ -503,8 +506,8 @@ fn verdict(
         && p < REFUTED
     {
         text += &format!(
-            " A misfit is left (chi-square {chi_square:.1} for {freedom}): errors larger than stated, or a cause that is not \
-             among the candidates."
+            " A misfit is left (chi-square {chi_square:.1} for {freedom}): errors larger than stated, or a cause that \
+                is not among the candidates."
         );
     }
     if let Some(gain) = &diagnosis.gain {

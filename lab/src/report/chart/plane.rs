@@ -208,8 +208,8 @@ impl<'a> PlanePicture<'a> {
     pub fn figure(self, caption: &str, [width, height]: [f64; 2], used: f64) -> Figure {
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.1} 0 {width:.1} {height:.1}\" role=\"img\" \
-             aria-label=\"{}\" font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" font-size=\"12\" \
-             fill=\"black\">{}</svg>",
+             aria-label=\"{}\" font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, \
+             sans-serif\" font-size=\"12\" fill=\"black\">{}</svg>",
             -0.5 * (width - used).max(0.0) + 0.0,
             escaped(self.title),
             self.svg

@@ -58,8 +58,9 @@ fn embedded(svg: &str, id: &str, title: &str) -> String {
     let (Some(width), Some(height)) = (size("width"), size("height")) else { return svg };
     let label = escaped(title);
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\" \
-         font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, sans-serif\" fill=\"black\">{}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} \
+            {height}\" role=\"img\" aria-label=\"{label}\" font-family=\"DejaVu Sans, Verdana, Liberation Sans, \
+            Arial, sans-serif\" fill=\"black\">{}",
         body.replacen("<rect width=\"100%\" height=\"100%\" fill=\"white\" />", "", 1)
     )
 }

@@ -54,22 +54,23 @@ const MEASURES: [Shown; 5] = [
 
 /// What every reader of the numbers has to know.
 const METHOD: [&str; 3] = [
-    "No parameter of a model is fitted here: rows are held out if they did not fit the model before. The scatter of e_n and e_t about each model is estimated on \
-     four fifths of the groups and used for the log likelihood of the others.",
-    "The models are ranked by the mean log likelihood of a row, all observables together. Stated standard errors weigh there; \
-     the root mean square errors count each reading once, the log loss each impact.",
-    "Intervals hold 95 % of 1000 bootstrap resamples of the groups, the same for all models. A difference whose interval \
-     includes 0 does not tell two models apart.",
+    "No parameter of a model is fitted here: rows are held out if they did not fit the model before. The scatter of \
+        e_n and e_t about each model is estimated on four fifths of the groups and used for the log likelihood of the \
+        others.",
+    "The models are ranked by the mean log likelihood of a row, all observables together. Stated standard errors \
+        weigh there; the root mean square errors count each reading once, the log loss each impact.",
+    "Intervals hold 95 % of 1000 bootstrap resamples of the groups, the same for all models. A difference whose \
+        interval includes 0 does not tell two models apart.",
 ];
 
 /// The same of the readings of a rig.
 const METHOD_OF_RIGS: [&str; 3] = [
-    "No parameter of a model is fitted here. The case simulates every experiment with each model, with the same particles and \
-     the same random numbers.",
-    "The models are ranked by the mean log likelihood of a reading, as `nearwall diagnose --case` computes it: errors of counts, \
-     stated errors, scatter between runs, and the errors of the case's own numbers.",
-    "Intervals hold 95 % of 1000 bootstrap resamples of the experiments, the same for all models. A difference whose interval \
-     includes 0 does not tell two models apart.",
+    "No parameter of a model is fitted here. The case simulates every experiment with each model, with the same \
+        particles and the same random numbers.",
+    "The models are ranked by the mean log likelihood of a reading, as `nearwall diagnose --case` computes it: errors \
+        of counts, stated errors, scatter between runs, and the errors of the case's own numbers.",
+    "Intervals hold 95 % of 1000 bootstrap resamples of the experiments, the same for all models. A difference whose \
+        interval includes 0 does not tell two models apart.",
 ];
 
 /// The page of a comparison on the data file `data`.
@@ -213,7 +214,8 @@ fn figure(comparison: &Comparison, measure: &Shown) -> Option<Figure> {
         &format!("{} [{}]", measure.axis, measure.unit),
     );
     let chart = chart.words(&words).points_with_errors("", &points, &bars.collect());
-    let caption = "With 95 % intervals. They overlap more than those of the differences in the table, which are paired.";
+    let caption = "With 95 % intervals. They overlap more than those of the differences in the table, which are \
+        paired.";
     Some(chart.figure(measure.id, caption))
 }
 

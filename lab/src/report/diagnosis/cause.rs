@@ -90,7 +90,9 @@ fn shape(p_value: f64) -> String {
     let by_chance = by_chance(p_value);
     if p_value < MISSHAPEN {
         return format!(
-            "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance {by_chance}.              Something acts along these inputs, but by another law than this one; do not extrapolate it."
+            "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance \
+                {by_chance}.              Something acts along these inputs, but by another law than this one; do not \
+                extrapolate it."
         );
     }
     format!(

@@ -43,7 +43,8 @@ pub(super) fn figure(
         chart = chart.measured("mean ± standard error", &means.points, &means.errors);
     }
     let caption = format!(
-        "{} rows: what the rest of the model leaves, and the curve fitted to it. The curve is a description, not a law.{note}",
+        "{} rows: what the rest of the model leaves, and the curve fitted to it. The curve is a description, not a \
+            law.{note}",
         points.len()
     );
     Some(chart.figure(&format!("curve-{id}"), &caption))

@@ -37,8 +37,8 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     }
     page.heading("Measured values and models");
     page.text(
-        "Black points are measured. Lines are the models: at each value of the x axis their mean over the nearest measured \
-         rows, with the other inputs as measured. Where there is one line only, both models are the same.",
+        "Black points are measured. Lines are the models: at each value of the x axis their mean over the nearest \
+            measured rows, with the other inputs as measured. Where there is one line only, both models are the same.",
     );
     page.figures(whole);
     for (split, figures) in parts {

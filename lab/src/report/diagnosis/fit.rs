@@ -31,8 +31,8 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     }
     if fit.base.against == "stated errors" && fit.extended.p_value.is_some_and(|p| p > TOO_GOOD) {
         lines.push(
-            "The misfit is smaller than chance allows. The stated errors are probably too large: are they standard errors of \
-             each value, not the spread of single impacts or a 95 % interval?"
+            "The misfit is smaller than chance allows. The stated errors are probably too large: are they standard \
+                errors of each value, not the spread of single impacts or a 95 % interval?"
                 .to_owned(),
         );
     }
@@ -82,21 +82,21 @@ fn answer(diagnosis: &Diagnosis) -> (RowStatus, String) {
     let (status, text) = match (known, base_is_refuted(diagnosis), extends(diagnosis)) {
         (false, ..) => (
             RowStatus::Open,
-            "This cannot be said: the file states no standard errors and repeats no setting, so there is nothing to compare \
-             the misfit with.",
+            "This cannot be said: the file states no standard errors and repeats no setting, so there is nothing to \
+                compare the misfit with.",
         ),
         (true, false, false) if fit.base.against == "structure" => (
             RowStatus::Good,
-            "As far as these data can tell: no column shapes the residuals. Whether their scatter is that of the measurement \
-             cannot be said without stated errors or repeated settings.",
+            "As far as these data can tell: no column shapes the residuals. Whether their scatter is that of the \
+                measurement cannot be said without stated errors or repeated settings.",
         ),
         (true, false, false) => {
             (RowStatus::Good, "Yes. The misfit of the base model is no larger than chance allows.")
         }
         (true, false, true) => (
             RowStatus::Good,
-            "The misfit of the base model as a whole is no larger than chance allows, but part of it has a cause that is \
-             significant by itself.",
+            "The misfit of the base model as a whole is no larger than chance allows, but part of it has a cause that \
+                is significant by itself.",
         ),
         (true, true, false) => {
             (RowStatus::Watch, "No. The base model misses the data by more than chance allows.")

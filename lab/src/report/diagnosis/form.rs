@@ -41,8 +41,8 @@ pub(super) fn figure(diagnosis: &Diagnosis, finding: &Finding, form: &CauseForm)
         .measured("mean ± standard error", &means.points, &means.errors);
     let unit = axis.describe([low, high]);
     let caption = format!(
-        "{} rows. The form was seen {unit}, between the thin lines; beyond them it is an extrapolation, and the band holds \
-         the errors of its parameters but not that of the form.{note}",
+        "{} rows. The form was seen {unit}, between the thin lines; beyond them it is an extrapolation, and the band \
+            holds the errors of its parameters but not that of the form.{note}",
         points.len()
     );
     Some(chart.figure(&format!("form-{}-{}", identifier(axis.name), identifier(quantity)), &caption))

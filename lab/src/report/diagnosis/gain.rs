@@ -32,9 +32,9 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
                 page.text(sentence(gain));
             }
             page.note(
-                "A ratio below 1 means a smaller error; if the whole interval is below 1, chance does not explain it. The \
-                 noise floor is the scatter of the measurements, which no model removes. For capture the error is that of the \
-                 probability.",
+                "A ratio below 1 means a smaller error; if the whole interval is below 1, chance does not explain it. \
+                    The noise floor is the scatter of the measurements, which no model removes. For capture the error \
+                    is that of the probability.",
             );
         }
     }
@@ -46,8 +46,8 @@ fn measured(gain: &Gain, groups: bool) -> String {
     if gain.measured == "cross-validated" {
         let group = if groups { " and without the other rows of its group" } else { "" };
         return format!(
-            "The rows are too few to hold some back. Each was predicted by a model file that was chosen and fitted without \
-             it{group}; extended.toml itself is fitted to all rows."
+            "The rows are too few to hold some back. Each was predicted by a model file that was chosen and fitted \
+                without it{group}; extended.toml itself is fitted to all rows."
         );
     }
     "extended.toml, as it was written, predicted rows that neither fit nor choice saw.".to_owned()
@@ -72,14 +72,14 @@ fn sentence(gain: &Gain) -> String {
     let ratio = number((gain.log_score_after - gain.log_score_before).exp());
     if gain.log_score_after > gain.log_score_before {
         return format!(
-            "{name}: its mean is not predicted better ({before} before, {after} after). What improves is the prediction of how \
-             the values scatter: the mean log score of a row, all observables together, is {low} before and {high} after, so \
-             an unseen row is {ratio} times as likely."
+            "{name}: its mean is not predicted better ({before} before, {after} after). What improves is the \
+                prediction of how the values scatter: the mean log score of a row, all observables together, is {low} \
+                before and {high} after, so an unseen row is {ratio} times as likely."
         );
     }
     format!(
-        "{name}: neither its mean ({before} before, {after} after) nor the mean log score of a row ({low} before, {high} after) \
-         improves on these rows."
+        "{name}: neither its mean ({before} before, {after} after) nor the mean log score of a row ({low} before, \
+            {high} after) improves on these rows."
     )
 }
 
@@ -90,8 +90,8 @@ pub(in crate::report) fn what_is_left(gain: &Gain) -> String {
             format!(" The noise floor is {}: what is left is noise.", number(floor))
         }
         Some(floor) => format!(
-            " The noise floor is {}; the other {} of the mean square error are the model's: a shape that is not quite right, too \
-             few rows to fit it, or a further cause.",
+            " The noise floor is {}; the other {} of the mean square error are the model's: a shape that is not quite \
+                right, too few rows to fit it, or a further cause.",
             number(floor),
             whole_percent(1.0 - (floor / gain.rmse_after).powi(2))
         ),
@@ -236,8 +236,8 @@ fn reliability(rows: &[PlotRow], models: &[(usize, &str)], held_out: bool) -> Fi
         chart = chart.points_with_errors(model, &points, &errors);
     }
     let caption = format!(
-        "{} {}, sorted by the predicted probability and averaged in equal numbers; bars are standard errors. On the line, the \
-         model predicts the share that was captured.{}",
+        "{} {}, sorted by the predicted probability and averaged in equal numbers; bars are standard errors. On the \
+            line, the model predicts the share that was captured.{}",
         rows.len(),
         kind(held_out),
         flattered(held_out, models.len() > 1)

@@ -28,7 +28,8 @@ fn sentence(groups: &GroupsFound) -> String {
         "were noticed as groups: residuals resemble each other more within them than chance allows"
     };
     format!(
-        "The {count} values of {column} {known}. Rows of one group share an error, so they are not independent: significance, \
-         intervals and hold-out go by group, and more groups narrow an interval, not more rows in each."
+        "The {count} values of {column} {known}. Rows of one group share an error, so they are not independent: \
+            significance, intervals and hold-out go by group, and more groups narrow an interval, not more rows in \
+            each."
     )
 }

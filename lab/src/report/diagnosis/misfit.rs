@@ -52,8 +52,8 @@ fn add_ranking(page: &mut Page, diagnosis: &Diagnosis) {
     };
     if !diagnosis.misfit.is_empty() {
         page.table(Table::new(
-            "Fall of chi-square by a free curve over one column, beyond that of a constant offset and less what its number of \
-             parameters gains by chance.",
+            "Fall of chi-square by a free curve over one column, beyond that of a constant offset and less what its \
+                number of parameters gains by chance.",
             2,
             &["column", "observable", "fall of chi-square", "by chance once in"],
             diagnosis.misfit.iter().map(row).collect(),
@@ -64,14 +64,14 @@ fn add_ranking(page: &mut Page, diagnosis: &Diagnosis) {
 /// What the figures below show.
 fn summary(diagnosis: &Diagnosis) -> &'static str {
     if !(diagnosis.misfit.is_empty() && diagnosis.findings.is_empty()) {
-        "Each figure shows measured minus base model over one column. A correct model scatters evenly about zero. Means that \
-         are off zero by several of their error bars show where it fails."
+        "Each figure shows measured minus base model over one column. A correct model scatters evenly about zero. \
+            Means that are off zero by several of their error bars show where it fails."
     } else if fit::base_is_refuted(diagnosis) || !diagnosis.undecided.is_empty() {
         "The base model misses the data by more than chance allows, but no single column is proven to \
          be the reason. Each figure shows measured minus base model over one column."
     } else {
-        "No column stands out beyond chance, given how many were tried. A misfit smaller than the error bars below cannot be \
-         seen."
+        "No column stands out beyond chance, given how many were tried. A misfit smaller than the error bars below \
+            cannot be seen."
     }
 }
 

@@ -167,14 +167,14 @@ fn add_numbers(page: &mut Page, diagnosis: &Diagnosis) {
         return;
     }
     let mut text = format!(
-        "Single values scatter about the model with a standard deviation of {}. This is the error of measurement where none \
-         is stated, and everything that no column of the file accounts for.",
+        "Single values scatter about the model with a standard deviation of {}. This is the error of measurement \
+            where none is stated, and everything that no column of the file accounts for.",
         values.join(" and ")
     );
     if !scatter.changes_with.is_empty() {
         text += &format!(
-            " The scatter changes with {}. This is not a cause, but it was accounted for; check the rig if it is a column of \
-             the rig.",
+            " The scatter changes with {}. This is not a cause, but it was accounted for; check the rig if it is a \
+                column of the rig.",
             scatter.changes_with.join(", ")
         );
     }
@@ -222,11 +222,11 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, data: &str, model: &str) {
     let Diagnosis { seed, level, .. } = diagnosis;
     page.heading("How it was judged");
     page.note(format!(
-        "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over every \
-         column. Chi-square is minus twice the log likelihood; its fall is reduced by what the number of parameters gains by \
-         chance. Explanations are compared by their evidence, which counts parameters and prior probabilities; a cause is \
-         named from a probability of 0.8 on, unless rows that it has not seen are predicted worse. Seed {seed} draws the \
-         rows that are held out. \
+        "Candidates are every effect of the library, every parameter of the base model's laws, and a free curve over \
+            every column. Chi-square is minus twice the log likelihood; its fall is reduced by what the number of \
+            parameters gains by chance. Explanations are compared by their evidence, which counts parameters and \
+            prior probabilities; a cause is named from a probability of 0.8 on, unless rows that it has not seen are \
+            predicted worse. Seed {seed} draws the rows that are held out. \
          docs/how-to/diagnosis.md of nearwall describes the method and its limits."
     ));
     let [data, model] = [data, model].map(quoted);

@@ -36,8 +36,8 @@ pub(super) fn add(page: &mut Page, diagnosis: &Diagnosis) {
     if diagnosis.rivals.is_empty() {
         return;
     }
-    let first = "A slip in the data file or an artefact of the measurement may explain the misfit without a new effect. Rule \
-                 these out first; if one is true, correct the file or its column map and run the diagnosis again.";
+    let first = "A slip in the data file or an artefact of the measurement may explain the misfit without a new \
+        effect. Rule these out first; if one is true, correct the file or its column map and run the diagnosis again.";
     let sentences = diagnosis.rivals.iter().map(|rival| sentence(rival, diagnosis));
     let lines = std::iter::once(first.to_owned()).chain(sentences).collect();
     page.callout(Callout {

@@ -61,8 +61,8 @@ fn residuals_caption(residuals: &[f64], scatter: f64) -> String {
     }
     let share = residuals.iter().filter(|residual| residual.abs() > 2.0 * scatter).count() as f64 / n as f64;
     format!(
-        "{n} rows. The line is the normal distribution that the scatter of single values, {}, gives by itself: 5 % would lie \
-         beyond twice the scatter, {} do.",
+        "{n} rows. The line is the normal distribution that the scatter of single values, {}, gives by itself: 5 % \
+            would lie beyond twice the scatter, {} do.",
         number(scatter),
         whole_percent(share)
     )

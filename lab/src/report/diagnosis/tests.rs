@@ -139,7 +139,8 @@ fn averages_far_from_the_model_are_not_called_noise() {
             "vary one of these with everything else constant: T_p (only thermal-softening depends on it), day (only",
             "T_p is blank, taken as 293.15 K.",
             "Column T_w looks like Celsius.",
-            "bars are the stated standard errors. Within 1 and 2 stated standard errors lie 0 % and 0 % for the base model",
+            "bars are the stated standard errors. Within 1 and 2 stated standard errors lie 0 % and 0 % for the base \
+                model",
         ],
     );
     assert!(
@@ -226,7 +227,8 @@ fn a_cause_says_how_sure_it_is() {
             "named in 86 % of resampled data sets. These data do not exclude tangential-compliance or curve over day.",
             "named in only 41 % of resampled data sets: take it as a hint",
             "The shape of this law fits",
-            "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance once in 100000",
+            "The shape of this law does not fit: a free curve over its inputs fits better, which happens by chance \
+                once in 100000",
             "Only the product of friction and strength is known.",
             "gas-lift +4.0 0.02",
             "measure e_t at v_t = 0.2 m/s and at v_t = 9 m/s",
@@ -234,8 +236,8 @@ fn a_cause_says_how_sure_it_is() {
             "e_t 0.02 45 %",
             "e_t: the error falls from 0.013 to 0.0102. The noise floor is 0.01: what is left is noise.",
             "The rows are too few to hold some back.",
-            "12 rows. Bars are the stated standard errors. The closer to the line, the better the prediction. The extended \
-             model was fitted to these rows",
+            "12 rows. Bars are the stated standard errors. The closer to the line, the better the prediction. The \
+                extended model was fitted to these rows",
             "lie 33 % and 67 % for the base model, 100 % and 100 % for the extended model",
         ],
     );
@@ -278,8 +280,8 @@ fn slips_of_input_stand_above_the_causes() {
     shows(
         &text,
         &[
-            "Input: These numbers fit if d were twice as large: is the radius given? With it chi-square of e_t falls by 60, 20 \
-             more than with the best cause; its probability is 0.90.",
+            "Input: These numbers fit if d were twice as large: is the radius given? With it chi-square of e_t falls \
+                by 60, 20 more than with the best cause; its probability is 0.90.",
         ],
     );
     assert!(text.find("Before physics is blamed").unwrap() < text.find("Cause 1").unwrap());

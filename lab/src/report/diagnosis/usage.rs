@@ -20,8 +20,8 @@ pub(super) fn sentence(measure: &NextMeasurement) -> String {
     let observe =
         if measure.observable == "outcome" { "which impacts are captured" } else { measure.observable };
     format!(
-        "To tell {} from {}: measure {observe} at {vary} = {from} and at {vary} = {to} with everything else constant. About \
-         {impacts} impacts are enough, half of them at each value.",
+        "To tell {} from {}: measure {observe} at {vary} = {from} and at {vary} = {to} with everything else constant. \
+            About {impacts} impacts are enough, half of them at each value.",
         name(cause),
         name(against)
     )
@@ -63,14 +63,14 @@ fn to_explain(finding: &Finding) -> String {
     let known = |column: &String| INPUTS.iter().any(|input| input.name == column);
     if finding.variables.iter().all(known) {
         return format!(
-            "No law of the library has this dependence on {columns}. The fitted curve holds only between the measured values: \
-             measure more of them where it bends, and beyond its ends where the model will be used."
+            "No law of the library has this dependence on {columns}. The fitted curve holds only between the measured \
+                values: measure more of them where it bends, and beyond its ends where the model will be used."
         );
     }
     format!(
-        "{} depends on {columns} or on something that changes with it. Vary {columns} with everything else constant, or record \
-         what changes with it (temperature, humidity, cleaning, supplier) as further columns: the next diagnosis will examine \
-         them.",
+        "{} depends on {columns} or on something that changes with it. Vary {columns} with everything else constant, \
+            or record what changes with it (temperature, humidity, cleaning, supplier) as further columns: the next \
+            diagnosis will examine them.",
         title(finding.observable)
     )
 }
@@ -105,8 +105,8 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
     let changes = &diagnosis.scatter.changes_with;
     if !changes.is_empty() {
         page.text(format!(
-            "A model file predicts means and random effects, not the error of a measurement: the scatter that changes with {} \
-             is not in it.",
+            "A model file predicts means and random effects, not the error of a measurement: the scatter that changes \
+                with {} is not in it.",
             listed(changes, "and")
         ));
     }
@@ -120,8 +120,8 @@ pub(super) fn add_commands(page: &mut Page, diagnosis: &Diagnosis, extended: &st
         page.text(inputs_of_rows(&inputs));
     }
     page.text(format!(
-        "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a solver \
-         needs openfoam/environment):"
+        "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a \
+            solver needs openfoam/environment):"
     ));
     page.code(openfoam(&inputs));
 }
@@ -200,7 +200,8 @@ mod tests {
 
     #[test]
     fn an_input_of_the_model_file_gets_its_line_in_the_case() {
-        let model = "[inputs.humidity]\ndefault = 0.4 # share\n[inputs.\"p l\"]\nlabels = [\"dry\", \"old, worn\"]\n[[effects]]\nkind = \"yield-ratio\"\n";
+        let model = "[inputs.humidity]\ndefault = 0.4 # share\n[inputs.\"p l\"]\nlabels = [\"dry\", \"old, \
+            worn\"]\n[[effects]]\nkind = \"yield-ratio\"\n";
         let lines = openfoam(&extra_inputs(model));
         assert!(lines.contains("    extraInputs ") && lines.contains("        humidity 0.4;\n"), "{lines}");
         assert!(lines.contains("\"p l\" \"dry\";    // one of \"dry\", \"old, worn\"\n"), "{lines}");

@@ -102,8 +102,8 @@ fn regimes(map: &Map, id: &str) -> Figure {
         .map(|regime| (regime_colour(regime), [regime.name().to_owned(), percent(share(regime))]))
         .collect();
     let caption = format!(
-        "{REGIME_NAMES} Of the share of the wall that an impact more probably meets (bare or covered). Per cent: share of \
-         this map."
+        "{REGIME_NAMES} Of the share of the wall that an impact more probably meets (bare or covered). Per cent: \
+            share of this map."
     );
     let panel = Panel::new(map, id, "Regime", fills, &caption);
     panel
@@ -131,8 +131,8 @@ fn restitution_scale(map: &MapSeries, which: usize) -> ColourScale {
 fn restitution(map: &Map, which: usize, id: &str, scale: &ColourScale) -> Figure {
     let fills = fills(map, |cell| cell.restitution.map(|pair| scale.colour(pair[which])));
     let title = ["Normal restitution e_n [1]", "Tangential restitution e_t [1]"][which];
-    let caption = "Mean of the particles that rebound, of the share of the wall that an impact more probably meets (bare or \
-        covered). Grey: no particle rebounds.";
+    let caption = "Mean of the particles that rebound, of the share of the wall that an impact more probably meets \
+        (bare or covered). Grey: no particle rebounds.";
     Panel::new(map, id, title, fills, caption).figure(&[], Some(scale))
 }
 

@@ -14,8 +14,8 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
         [parties.wall_law, parties.case, parties.both, parties.neither].map(whole_percent);
     page.heading("Wall law or case");
     page.text(format!(
-        "Probability that the wall law is at fault: {law}; the case: {case}; both: {both}; neither, beyond the errors of readings and \
-         case: {neither}."
+        "Probability that the wall law is at fault: {law}; the case: {case}; both: {both}; neither, beyond the errors \
+            of readings and case: {neither}."
     ));
     let header = [
         "party",

@@ -58,8 +58,8 @@ fn figure(finding: &Finding, curve: &CauseCurve) -> Option<Figure> {
     let chart = chart.x_range(first[0], last[0]).mark_y(0.0, "");
     let (chart, _) = Window::new(&[], points.iter().map(|at| at[1]).chain([0.0])).draw(chart, "", &[]);
     let caption = format!(
-        "{} heights over {input} of the impact, fitted to all readings together; level beyond the ends. The curve is a description, \
-         not a law.",
+        "{} heights over {input} of the impact, fitted to all readings together; level beyond the ends. The curve is \
+            a description, not a law.",
         points.len()
     );
     let chart = chart.line("fitted curve", &points).points("", &points);

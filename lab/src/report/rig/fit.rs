@@ -16,8 +16,8 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     }
     if fit.extended.chi_square.is_some() && fit.extended.p_value.is_some_and(|p| p > TOO_GOOD) {
         lines.push(
-            "The misfit is smaller than chance allows. The stated errors are probably too large: are they standard errors of each \
-             reading, not the spread of single impacts or a 95 % interval?"
+            "The misfit is smaller than chance allows. The stated errors are probably too large: are they standard \
+                errors of each reading, not the spread of single impacts or a 95 % interval?"
                 .to_owned(),
         );
     }
@@ -31,23 +31,24 @@ fn answer(found: &RigDiagnosis) -> (RowStatus, &'static str) {
     match (refuted(&fit.base), extends(&found.diagnosis)) {
         (false, false) if !tested => (
             RowStatus::Good,
-            "As far as these data can tell: no candidate explains the differences. Whether they are those of the measurement cannot be \
-             said, because not every reading has a count or a standard error.",
+            "As far as these data can tell: no candidate explains the differences. Whether they are those of the \
+                measurement cannot be said, because not every reading has a count or a standard error.",
         ),
         (false, false) => {
             (RowStatus::Good, "Yes. The misfit of the base model is no larger than chance allows.")
         }
         (false, true) => (
             RowStatus::Good,
-            "The misfit of the base model as a whole is no larger than chance allows, but part of it has a cause that is significant by \
-             itself.",
+            "The misfit of the base model as a whole is no larger than chance allows, but part of it has a cause that \
+                is significant by itself.",
         ),
         (true, false) => {
             (RowStatus::Watch, "No. The base model misses the readings by more than chance allows.")
         }
         (true, true) if refuted(&fit.extended) => (
             RowStatus::Watch,
-            "No, and the extended model does not fit either: something is still missing, or the errors are larger than stated.",
+            "No, and the extended model does not fit either: something is still missing, or the errors are larger \
+                than stated.",
         ),
         (true, true) => (RowStatus::Good, "The base model does not; the extended model does."),
     }
@@ -60,15 +61,16 @@ fn sentence(model: &str, test: &FitTest) -> String {
             let chance = chance
                 .map_or(String::new(), |chance| format!(" A misfit this large happens by chance {chance}."));
             format!(
-                "The {model} model: chi-square is {} with {freedom} degree{} of freedom, {} for each, where about 1 is expected.{chance}",
+                "The {model} model: chi-square is {} with {freedom} degree{} of freedom, {} for each, where about 1 \
+                    is expected.{chance}",
                 two_digits(chi_square),
                 if freedom == 1 { "" } else { "s" },
                 two_digits(chi_square / freedom as f64)
             )
         }
         (_, _, Some(chance)) => format!(
-            "The {model} model: not every reading has a count or a standard error, so the test asks whether any candidate explains what \
-             is left. What the best one gains happens by chance {chance}."
+            "The {model} model: not every reading has a count or a standard error, so the test asks whether any \
+                candidate explains what is left. What the best one gains happens by chance {chance}."
         ),
         _ => format!("The {model} model was not tested: there is nothing to compare its misfit with."),
     }

@@ -17,13 +17,14 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     page.heading("Gain on held-out experiments");
     if gains.is_empty() {
         page.text(match super::super::diagnosis::fit::extends(&found.diagnosis) {
-            true => "The experiments are too few to hold some of them back: the errors below are those of the fit, not of a prediction.",
+            true => "The experiments are too few to hold some of them back: the errors below are those of the fit, \
+                not of a prediction.",
             false => "Nothing was added to the model. Its errors as it is:",
         });
     } else {
         page.text(
-            "Whole experiments were held out in turn. For each part of them a model file was chosen and fitted on the other experiments \
-             and predicted those held out; extended.toml itself is fitted to all.",
+            "Whole experiments were held out in turn. For each part of them a model file was chosen and fitted on the \
+                other experiments and predicted those held out; extended.toml itself is fitted to all.",
         );
         let mut table = table(&gains);
         if let Some(head) = table.header.get_mut(1) {
@@ -34,8 +35,8 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
             page.text(sentence(gain));
         }
         page.note(
-            "A ratio below 1 means a smaller error; if the whole interval is below 1, chance does not explain it. The noise floor is the \
-             error of the readings themselves, which no model removes.",
+            "A ratio below 1 means a smaller error; if the whole interval is below 1, chance does not explain it. The \
+                noise floor is the error of the readings themselves, which no model removes.",
         );
     }
     add_errors(page, &found.errors);
@@ -63,7 +64,8 @@ fn sentence(gain: &Gain) -> String {
     }
     if gain.ci95[1] < 1.0 {
         return format!(
-            "{name}: on experiments that it has not seen, the extended model is off by {after} instead of {before} (root mean square).{}",
+            "{name}: on experiments that it has not seen, the extended model is off by {after} instead of {before} \
+                (root mean square).{}",
             what_is_left(gain)
         );
     }
@@ -73,7 +75,7 @@ fn sentence(gain: &Gain) -> String {
         );
     }
     format!(
-        "{name}: {before} before, {after} after. The interval of the ratio holds 1, so these experiments are too few to say whether the \
-         prediction improves."
+        "{name}: {before} before, {after} after. The interval of the ratio holds 1, so these experiments are too few \
+            to say whether the prediction improves."
     )
 }

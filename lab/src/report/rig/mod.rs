@@ -124,14 +124,14 @@ fn add_method(page: &mut Page, diagnosis: &Diagnosis, from: &RigPage<'_>) {
         ),
     };
     page.note(format!(
-        "The base model {does}; a candidate changes its wall law, or with --case a number of the case. Candidates are every effect of the library \
-         whose inputs vary over the impacts, the numbers of the base model's own laws, and free curves over the inputs whose mean \
-         changes from experiment to experiment. Explanations are compared by their evidence, which counts parameters and prior \
-         probabilities, beside a scatter between runs that all of them share; a cause is named from a probability of 0.8 on, \
-         unless experiments that it has not seen are predicted worse. Intervals hold 95 % \
-         of draws from the likelihood of all parameters together. The gain is cross-validated over whole experiments. Seed {seed} \
-         decides the draws and the parts of the cross-validation. docs/how-to/rig-diagnosis.md of nearwall describes the method and its \
-         limits."
+        "The base model {does}; a candidate changes its wall law, or with --case a number of the case. Candidates are \
+            every effect of the library whose inputs vary over the impacts, the numbers of the base model's own laws, \
+            and free curves over the inputs whose mean changes from experiment to experiment. Explanations are \
+            compared by their evidence, which counts parameters and prior probabilities, beside a scatter between \
+            runs that all of them share; a cause is named from a probability of 0.8 on, unless experiments that it \
+            has not seen are predicted worse. Intervals hold 95 % of draws from the likelihood of all parameters \
+            together. The gain is cross-validated over whole experiments. Seed {seed} decides the draws and the parts \
+            of the cross-validation. docs/how-to/rig-diagnosis.md of nearwall describes the method and its limits."
     ));
     let data = quoted(from.data);
     page.code(format!(

@@ -16,8 +16,8 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     }
     page.heading("What to measure next");
     page.text(
-        "These experiments are expected to tell most; next_experiments.csv has them with the columns of the data file, to be filled in. \
-         Settings that are not named are as in the case.",
+        "These experiments are expected to tell most; next_experiments.csv has them with the columns of the data \
+            file, to be filled in. Settings that are not named are as in the case.",
     );
     let rows = found.next.iter().enumerate().map(|(place, next)| row(place, next)).collect();
     let header = [
@@ -31,9 +31,10 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
     ];
     page.table(Table::new("", 4, &header, rows));
     page.note(
-        "The first factor is the expected ratio of the likelihoods of the causes, the second the ratio of the errors of the extended \
-         model's prediction before and after, each for a reading with the usual count or error of the file. Particles or repeats: how many \
-         decide between the two leading causes; none where these predict nearly the same.",
+        "The first factor is the expected ratio of the likelihoods of the causes, the second the ratio of the errors \
+            of the extended model's prediction before and after, each for a reading with the usual count or error of \
+            the file. Particles or repeats: how many decide between the two leading causes; none where these predict \
+            nearly the same.",
     );
 }
 

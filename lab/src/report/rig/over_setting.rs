@@ -45,8 +45,8 @@ pub(super) fn figures(
     }
     if shown.len() < drawn {
         page.note(format!(
-            "{} of {drawn} figures: for each kind of observable that with the largest misfit of the base model, then the next ones. The \
-             table of all readings has the others.",
+            "{} of {drawn} figures: for each kind of observable that with the largest misfit of the base model, then \
+                the next ones. The table of all readings has the others.",
             shown.len()
         ));
     }

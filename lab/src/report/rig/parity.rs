@@ -101,8 +101,8 @@ fn seen(extended: bool, held_out: bool) -> &'static str {
     match (extended, held_out) {
         (false, _) => "",
         (true, true) => {
-            " The extended model's values are those of a model chosen and fitted without the experiment, so they are true \
-             predictions."
+            " The extended model's values are those of a model chosen and fitted without the experiment, so they are \
+                true predictions."
         }
         (true, false) => " The extended model was fitted to these readings, so the figure flatters it.",
     }

@@ -43,7 +43,8 @@ pub(super) fn add(page: &mut Page, found: &RigDiagnosis) {
         (false, _) => "Measured value ± standard error and the value of the base model.",
         (true, false) => "Measured value ± standard error and the values of both models.",
         (true, true) => {
-            "Measured value ± standard error, the values of both models, and that of a model chosen and fitted without the experiment."
+            "Measured value ± standard error, the values of both models, and that of a model chosen and fitted \
+                without the experiment."
         }
     };
     page.table(Table::new(caption, 3, &header[..columns], rows));

@@ -230,7 +230,8 @@ fn a_cause_on_several_walls_is_shown_in_full() {
             "shift of capture +8.0 &#60; 0.01",
             "What these experiments do not exclude",
             "tangential.e_t 1 0.8 0.7 to 0.9",
-            "the extended model is off by 0.016 instead of 0.16 (root mean square). The noise floor is 0.02: what is left is noise.",
+            "the extended model is off by 0.016 instead of 0.16 (root mean square). The noise floor is 0.02: what is \
+                left is noise.",
             "1 particles.temperature = 345 captured@lid melting-transition: 0.5, shift of capture: 0.25 7.4 2.0 60",
             "gas-lift",
             "vary and record v_t",

@@ -35,14 +35,14 @@ pub(super) fn add_commands(page: &mut Page, found: &RigDiagnosis, from: &RigPage
         ));
     }
     page.text(format!(
-        "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a solver needs \
-         openfoam/environment):"
+        "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a \
+            solver needs openfoam/environment):"
     ));
     page.code(openfoam(&extra_inputs(&found.extended)));
     if !found.draws.is_empty() {
         page.text(format!(
-            "draws/ has {} model files whose parameters are drawn together from the fit. Run each; the range of the results is the \
-             uncertainty of the prediction (over 39 draws, a 95 % band).",
+            "draws/ has {} model files whose parameters are drawn together from the fit. Run each; the range of the \
+                results is the uncertainty of the prediction (over 39 draws, a 95 % band).",
             found.draws.len()
         ));
     }

@@ -93,8 +93,8 @@ fn capture(comparison: &RunComparison<'_>, index: usize) -> Option<Figure> {
         let colour = comparison.colour(label, wall);
         chart = chart.coloured(colour).points_with_errors(label, &points, &errors);
     }
-    let caption = "Captured share of the particles in each class, with its 95 % interval. The interval allows for parcels \
-                   of unequal weight.";
+    let caption = "Captured share of the particles in each class, with its 95 % interval. The interval allows for \
+        parcels of unequal weight.";
     any.then(|| chart.log_x().x_factor(1e6).y_range(0.0, 100.0).figure(&format!("capture-{index}"), caption))
 }
 

@@ -59,7 +59,8 @@ fn fill_several(table: &mut Table, comparison: &RunComparison<'_>, names: &[&str
     let mut residuals = vec!["residual / injected [1]".to_owned()];
     residuals.extend(comparison.runs.iter().map(|run| run.residual.map_or("–".to_owned(), number)));
     rows.push(residuals);
-    table.caption = "At each case's own last time. The stock models keep no balance: their escaped mass is what the patches count, \
-         else the log's sum over all patches, else what was recorded as leaving."
+    table.caption =
+        "At each case's own last time. The stock models keep no balance: their escaped mass is what the \
+        patches count, else the log's sum over all patches, else what was recorded as leaving."
             .to_owned();
 }

@@ -148,8 +148,8 @@ fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
             chart = chart.line(name, &points);
         }
     }
-    let caption = "Molten and frozen slag and powder in the deposit of the wall, and, where there is some, the mass that drained from \
-                   it as a film, that fell off, that the gas carried away and that vapour brought. In OpenFOAM with the mass at capture; a standalone case counts out \
-                   what burns off.";
+    let caption = "Molten and frozen slag and powder in the deposit of the wall, and, where there is some, the mass \
+        that drained from it as a film, that fell off, that the gas carried away and that vapour brought. In OpenFOAM \
+        with the mass at capture; a standalone case counts out what burns off.";
     chart.figure(&format!("wall-deposit-{}", index + 1), caption)
 }

@@ -27,8 +27,9 @@ pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
     if !figures.is_empty() {
         page.heading("Gas and parcels");
         page.text(
-            "A cut through the middle of the domain, with the parcels in flight near it. ParaView shows the same with the walls: start \
-             paraview --script=PATH/gasWithParcels.py in the folder of the case; the script is in openfoam/paraview of nearwall.",
+            "A cut through the middle of the domain, with the parcels in flight near it. ParaView shows the same with \
+                the walls: start paraview --script=PATH/gasWithParcels.py in the folder of the case; the script is in \
+                openfoam/paraview of nearwall.",
         );
         page.figures(figures);
     }

@@ -63,8 +63,8 @@ pub fn openfoam_page(runs: &[RunResults]) -> Result<String, askama::Error> {
     page.figures(opening::figures(&comparison));
     comparison.add_to(&mut page);
     page.heading("Sources");
-    page.text("The tables of nearWallInteraction give its hits, captures, regimes, conversions and balance. The stock models \
-         write only counts and masses to the solver's log; the arrivals at their walls are those that the cloud \
+    page.text("The tables of nearWallInteraction give its hits, captures, regimes, conversions and balance. The stock \
+        models write only counts and masses to the solver's log; the arrivals at their walls are those that the cloud \
          function patchPostProcessing recorded. Where a stock model captures every arrival, its conversion at capture \
          is that of the arrivals. A parcel that rebounds may arrive many times. Places are those of parcels that lie \
          still at the last written time.");
@@ -95,8 +95,8 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
     }
     if let Some(table) = bands(case, runs) {
         page.heading("Captures over the drawn models");
-        page.text("95 % bands of what each wall captures over models drawn from a fit: the uncertainty of the fitted parameters. \
-             The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
+        page.text("95 % bands of what each wall captures over models drawn from a fit: the uncertainty of the fitted \
+            parameters. The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
         page.table(table);
     }
     add_method(&mut page, case);
@@ -123,16 +123,16 @@ fn add_method(page: &mut Page, case: &Case) {
     let also: String = also.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| *what).collect();
     let without = if gas.turbulence.is_some() { "" } else { " There is no turbulence." };
     page.text(format!(
-        "Particles move alone in a prescribed, steady gas that they do not act on: drag of Schiller and Naumann, weight{also}, \
-         convective heat of Ranz and Marshall, and the stated law of carbon conversion.{without} A particle touches a wall \
-         with its surface, half a diameter from its centre. The impact model decides each hit; its random draw depends \
-         only on seed, particle and hit number."
+        "Particles move alone in a prescribed, steady gas that they do not act on: drag of Schiller and Naumann, \
+            weight{also}, convective heat of Ranz and Marshall, and the stated law of carbon conversion.{without} A \
+            particle touches a wall with its surface, half a diameter from its centre. The impact model decides each \
+            hit; its random draw depends only on seed, particle and hit number."
     ));
     if let Some(deposit) = &case.deposit {
         page.text(format!(
-            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its beginning; at \
-             its end the captured ones are added, and the carbon in the powder burns by the law of the case at the \
-             temperature of the wall. deposit.csv has every wall, bin and time.",
+            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its \
+                beginning; at its end the captured ones are added, and the carbon in the powder burns by the law of \
+                the case at the temperature of the wall. deposit.csv has every wall, bin and time.",
             number(deposit.duration),
             deposit.steps
         ));

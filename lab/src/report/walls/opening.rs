@@ -83,7 +83,8 @@ fn caption(walls: &[(&WallSurface, (SurfaceQuantity, &Vec<f64>))]) -> String {
         .iter()
         .map(|(wall, (_, values))| format!("{} {}", wall.wall, with_unit(wall.integral(values), "kg")));
     format!(
-        "Seen from outside through the walls in front, at {} s; the walls extend over {} m along x, y and z. On them: {}.",
+        "Seen from outside through the walls in front, at {} s; the walls extend over {} m along x, y and z. On them: \
+            {}.",
         number(walls[0].0.time),
         size.join(" × "),
         masses.collect::<Vec<_>>().join(", ")

@@ -36,8 +36,8 @@ fn restitution(
 }
 
 pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
-    let caption = "Mean ± standard deviation. Outside validity: hits beyond the range that a property or a fitted term is \
-                   stated for.";
+    let caption = "Mean ± standard deviation. Outside validity: hits beyond the range that a property or a fitted \
+        term is stated for.";
     comparison.wall_table(
         caption,
         &[

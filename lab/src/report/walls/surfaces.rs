@@ -28,7 +28,8 @@ pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
     }
     page.heading("Deposit on the walls");
     page.text(
-        "The values on each face of the walls that the wall model writes, at the last written time. Each map has a scale of its own.",
+        "The values on each face of the walls that the wall model writes, at the last written time. Each map has a \
+            scale of its own.",
     );
     for (place, (label, run)) in comparison.each().enumerate() {
         for (count, wall) in run.surfaces.iter().enumerate() {
@@ -173,8 +174,8 @@ fn regimes(wall: &WallSurface, unrolled: &Unrolled, id: &str) -> Option<(Figure,
         map.add(&swatch(regime_colour(regime), at, &[regime.name(), &share]));
     }
     let caption = format!(
-        "The regime in which most of the mass on a face was captured, of the parcels in the deposit cloud; per cent of their \
-         mass. {REGIME_NAMES} Hatched: no such parcel."
+        "The regime in which most of the mass on a face was captured, of the parcels in the deposit cloud; per cent \
+            of their mass. {REGIME_NAMES} Hatched: no such parcel."
     );
     Some((finished(map, &caption), is_stretched))
 }
@@ -237,21 +238,24 @@ fn how(how: &Unrolling) -> String {
     match how {
         Unrolling::Flat => "A flat wall, seen at right angles.".to_owned(),
         Unrolling::Section(axis) => format!(
-            "Unrolled around the axis {}: the length along the cross-section, from the side {} on, and the place along the axis.",
+            "Unrolled around the axis {}: the length along the cross-section, from the side {} on, and the place \
+                along the axis.",
             axis_words(axis),
             side(axis.begin)
         ),
         Unrolling::Angle { axis, radius, radii } => format!(
-            "Unrolled around the axis {}: the angle, from the side {} on, as length at a radius of {} m, and the place along the \
-             axis. Where the radius differs ({} to {} m) faces look wider or narrower than they are.",
+            "Unrolled around the axis {}: the angle, from the side {} on, as length at a radius of {} m, and the \
+                place along the axis. Where the radius differs ({} to {} m) faces look wider or narrower than they \
+                are.",
             axis_words(axis),
             side(axis.begin),
             number(*radius),
             number(radii[0]),
             number(radii[1])
         ),
-        Unrolling::Projected => "The wall is neither flat nor around one axis: it is projected on the two main axes over \
-             which it extends most. Parts hide others that lie behind them, and steep parts look smaller than they are."
+        Unrolling::Projected => "The wall is neither flat nor around one axis: it is projected on the two main axes \
+            over which it extends most. Parts hide others that lie behind them, and steep parts look smaller than \
+            they are."
             .to_owned(),
     }
 }

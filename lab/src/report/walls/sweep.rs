@@ -129,8 +129,8 @@ fn restitution(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         .line("rebounds, all hits", &rebounds);
     chart.figure(
         "sweep-restitution",
-        "Mean over first hits with its 95 % interval, where a captured particle counts as 0, and mean over the rebounds of \
-         all hits, first and later.",
+        "Mean over first hits with its 95 % interval, where a captured particle counts as 0, and mean over the \
+            rebounds of all hits, first and later.",
     )
 }
 

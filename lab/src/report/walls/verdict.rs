@@ -122,7 +122,8 @@ fn certainty(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String>
     let hits = run.arrived(wall, comparison.time).map(|(hits, _)| hits.count).filter(|hits| *hits > 0)?;
     let [low, high] = wilson(share(totals.captured.count as f64, hits as f64), hits as f64).map(percent);
     let mut text = format!(
-        "With {hits} hits, chance alone leaves {low} to {high} for the share captured by {wall} (95 %, independent hits)"
+        "With {hits} hits, chance alone leaves {low} to {high} for the share captured by {wall} (95 %, independent \
+            hits)"
     );
     let outside = comparison.walls.iter().filter_map(|wall| {
         let totals = comparison.totals(run, wall)?;

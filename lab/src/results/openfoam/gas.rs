@@ -40,8 +40,8 @@ pub enum GasError {
     Parcels(FoamError),
     /// The fields of all ranks are in one file each.
     #[error(
-        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for a picture \
-         of gas and parcels"
+        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for a \
+            picture of gas and parcels"
     )]
     Collated(String),
     /// No field of the gas.
@@ -49,8 +49,8 @@ pub enum GasError {
     NoGas(String),
     /// The mesh is too large to be cut.
     #[error(
-        "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows it in \
-         ParaView"
+        "{0}: the mesh is too large for a picture of gas and parcels here; openfoam/paraview/gasWithParcels.py shows \
+            it in ParaView"
     )]
     TooLarge(String),
 }

@@ -77,8 +77,8 @@ pub enum HistoryError {
     },
     /// Two parcels have the same identity.
     #[error(
-        "{}:{line}: parcel {} hits a wall after its capture, so two parcels have this identity; run the case again from \
-         its start",
+        "{}:{line}: parcel {} hits a wall after its capture, so two parcels have this identity; run the case again \
+            from its start",
         .file.display(), .parcel.text()
     )]
     SharedIdentity {
@@ -91,8 +91,8 @@ pub enum HistoryError {
     },
     /// The record holds some of the parcels only.
     #[error(
-        "{}: the record holds 1 in {one_in} of the parcels; set maxRows in `record` to {counted} or more and run the case \
-         again",
+        "{}: the record holds 1 in {one_in} of the parcels; set maxRows in `record` to {counted} or more and run the \
+            case again",
         .file.display()
     )]
     Sampled {
@@ -105,8 +105,9 @@ pub enum HistoryError {
     },
     /// The record and the tables differ.
     #[error(
-        "{}: the record holds {recorded} impacts, the tables count {counted} on the same patches; a replay needs a record \
-         of all of a transient run: read the newest record, keep `record` on from the start, and end at a write time",
+        "{}: the record holds {recorded} impacts, the tables count {counted} on the same patches; a replay needs a \
+            record of all of a transient run: read the newest record, keep `record` on from the start, and end at a \
+            write time",
         .file.display()
     )]
     Differs {

@@ -44,8 +44,8 @@ pub enum CaseError {
     NotACase(String, String),
     /// A case that ran, but into which no parcel came.
     #[error(
-        "{0}: the run has results, but no parcel was injected or hit a wall until its end; run it beyond the start of the \
-         injection (SOI of its injectors)"
+        "{0}: the run has results, but no parcel was injected or hit a wall until its end; run it beyond the start of \
+            the injection (SOI of its injectors)"
     )]
     NoParcels(String),
     /// A case that has not run, or whose results are not where they are looked for; the second text as above.

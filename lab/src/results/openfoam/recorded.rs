@@ -150,7 +150,8 @@ mod tests {
 
     #[test]
     fn names_in_quotation_marks_are_read() {
-        let text = "# Time                   currentProc \" (position0 position1 position2) d rho nParticle (U0 U1 U2)\"\n\
+        let text = "# Time                   currentProc \" (position0 position1 position2) d rho nParticle (U0 U1 \
+            U2)\"\n\
                     0.11\t0 (0.0785 0.031 0) 0.0001 1000 159 (-1 0 -2)\n";
         let arrivals = read(text, |row| to_arrival(row, None));
         assert!((arrivals[0].mass - 159.0 * PI / 6.0 * 1e-9).abs() < 1e-20);

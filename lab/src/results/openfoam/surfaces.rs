@@ -50,8 +50,8 @@ pub enum SurfaceError {
     NoMaps(FoamError),
     /// The fields of all ranks are in one file each.
     #[error(
-        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for maps of \
-         the walls"
+        "{0}: the fields of all ranks are in one file each (collated), which are not read; run reconstructPar for \
+            maps of the walls"
     )]
     Collated(String),
     /// The case has no fields of this cloud, at this time if one is wanted.

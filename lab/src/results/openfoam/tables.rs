@@ -161,8 +161,8 @@ mod tests {
 
     #[test]
     fn classes_of_several_injectors_are_added() {
-        let text = "# time_s injector quantity low high hits particles particles_squared mass_kg sticks stick_particles \
-                    stick_mass_kg energy_in_J energy_out_J\n\
+        let text = "# time_s injector quantity low high hits particles particles_squared mass_kg sticks \
+            stick_particles stick_mass_kg energy_in_J energy_out_J\n\
                     0.1 a speed_m_s 1 2 4 40 400 4e-9 1 10 1e-9 8e-9 1e-9\n\
                     0.1 b speed_m_s 1 2 2 20 200 2e-9 0 0 0 4e-9 2e-9\n\
                     0.1 a speed_m_s 1000 inf 1 10 100 1e-9 0 0 0 1 0.5\n\

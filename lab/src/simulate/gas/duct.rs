@@ -1,7 +1,7 @@
 //! Flow along a straight duct: between two planes, in a rectangular or in a round duct.
 //!
-//! `flow = "laminar"`: `u = (3/2) U (1 - (z/h)²)` between planes at `z = ±h`, `u = 2 U (1 - r²/R²)` in a round duct, `U`
-//! the mean speed [m/s]. `flow = "turbulent"`: Reichardt's (1951) law of a smooth wall at the distance `y` from the
+//! `flow = "laminar"`: `u = (3/2) U (1 - (z/h)²)` between planes at `z = ±h`, `u = 2 U (1 - r²/R²)` in a round duct,
+//! `U` the mean speed [m/s]. `flow = "turbulent"`: Reichardt's (1951) law of a smooth wall at the distance `y` from the
 //! nearest wall, `y+ = y u_tau/nu`,
 //!
 //! `u/u_tau = c (2.5 ln(1 + 0.4 y+) + 7.8 (1 - exp(-y+/11) - (y+/11) exp(-y+/3)))`,

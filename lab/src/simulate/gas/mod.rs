@@ -1,6 +1,7 @@
 //! The gas that carries the particles: a prescribed velocity field, one kind a file, and the gas's properties.
 //!
-//! Particles do not act on the gas. A field is the mean flow; `[gas.turbulence]` adds fluctuations. Properties are taken at the gas's own local temperature.
+//! Particles do not act on the gas. A field is the mean flow; `[gas.turbulence]` adds fluctuations. Properties are
+//! taken at the gas's own local temperature.
 
 mod duct;
 mod stagnation_jet;
