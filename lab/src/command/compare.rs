@@ -4,7 +4,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use crate::atomic_file::write_texts;
-use crate::dataset::{ColumnMap, RigMeasurements, WallChoice};
+use crate::dataset::{ColumnMap, WallChoice};
 use crate::diagnose::comparison::{ComparedModel, Comparison, RigComparisonError, compare, compare_rig};
 use crate::report::{comparison_page, comparison_text};
 use crate::rig::CaseText;
@@ -48,9 +48,11 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> CommandResult {
     let files: Vec<Document> =
         arguments.models.iter().map(|path| Document::from_file(path)).collect::<Result<_, _>>()?;
+    let model = |file: &Document| Model::from_toml(file.name(), file.text());
+    let models: Vec<Model> = files.iter().map(model).collect::<Result<_, _>>()?;
     let (comparison, notes) = match &arguments.case {
         Some(case) => on_rig(arguments, case, &files)?,
-        None => on_impacts(arguments, &files)?,
+        None => on_impacts(arguments, &files, &models)?,
     };
     let text = comparison_text(&comparison);
     let Some(folder) = &arguments.out else { return super::print(&text) };
@@ -63,40 +65,29 @@ type Compared = Result<(Comparison, Vec<String>), Box<dyn std::error::Error>>;
 
 /// Compares on the readings of a rig that a case of `nearwall simulate` describes.
 fn on_rig(arguments: &Arguments, case: &Path, models: &[Document]) -> Compared {
-    let file = arguments.data.display().to_string();
-    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
-    let data = RigMeasurements::read(&file, source)?;
-    super::note(&data.notes);
-    // An error of a model with line and key, before anything is simulated.
-    for model in models {
-        Model::from_toml(model.name(), model.text())?;
-    }
+    let data = super::read_rig(&arguments.data)?;
     let case = CaseText::from_file(case)?;
-    let bar = progress::spinner("models simulated");
-    let told = |model: &str| {
-        bar.inc(1);
-        bar.set_message(format!("models simulated: {model}"));
-    };
+    let simulated = "models simulated";
+    let bar = progress::spinner(simulated);
+    let told = |model: &str| progress::tell(&bar, simulated, model);
     let comparison = compare_rig(&case, &data, models, arguments.seed, &told);
     bar.finish_and_clear();
     let comparison = comparison.map_err(|error| match error {
-        RigComparisonError::TooFew { .. } => format!("{file}: {error}"),
+        RigComparisonError::TooFew { .. } => format!("{}: {error}", arguments.data.display()),
         other => other.to_string(),
     });
     Ok((comparison?, data.notes))
 }
 
 /// Compares on measured impacts.
-fn on_impacts(arguments: &Arguments, files: &[Document]) -> Compared {
+fn on_impacts(arguments: &Arguments, files: &[Document], models: &[Model]) -> Compared {
     let map = arguments.columns.as_deref().map(ColumnMap::from_file).transpose()?;
-    let model = |file: &Document| Model::from_toml(file.name(), file.text());
-    let models: Vec<Model> = files.iter().map(model).collect::<Result<_, _>>()?;
     let candidate = |(file, model): (&Document, _)| {
         let read = read(arguments, map.as_ref(), file.name(), model)?;
         Ok(read.with_fitted_rows(file.text()))
     };
     let candidates: Vec<ComparedModel<'_>> =
-        files.iter().zip(&models).map(candidate).collect::<Result<_, Box<dyn std::error::Error>>>()?;
+        files.iter().zip(models).map(candidate).collect::<Result<_, Box<dyn std::error::Error>>>()?;
     let notes = candidates.first().map_or(Vec::new(), |candidate| candidate.notes().to_vec());
     super::note(&notes);
     let file = arguments.data.display().to_string();

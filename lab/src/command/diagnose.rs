@@ -10,11 +10,13 @@ use crate::diagnose::rig::{RigDiagnosis, RigError, diagnose_rig};
 use crate::diagnose::{Diagnosis, ImpactDiagnosis, Options, Reach};
 use crate::report::{RigPage, RigSource, diagnosis_page, rig_page};
 use crate::rig::{CaseText, Forward, ReplayedRig, RigCase, SimulatedRig};
-use indicatif::ProgressBar;
 use nearwall::Model;
 use nearwall::input::Document;
 
 use super::{CommandResult, progress};
+
+/// What the progress counts.
+const TESTED: &str = "candidates tested";
 
 /// Finds the effects that a model lacks to explain measured impacts, and extends the model
 #[derive(clap::Args)]
@@ -101,8 +103,9 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
     let data = diagnosis.read(&file, bar.wrap_read(source))?;
     bar.finish_and_clear();
     super::note(&data.notes);
-    let bar = progress::spinner("candidates tested");
-    let (diagnosis, extended, draws) = diagnosis.run(&data, arguments.draws, &|what| tried(&bar, what))?;
+    let bar = progress::spinner(TESTED);
+    let (diagnosis, extended, draws) =
+        diagnosis.run(&data, arguments.draws, &|what| progress::tell(&bar, TESTED, what))?;
     bar.finish_and_clear();
     if arguments.draws > 0 && draws.is_empty() {
         eprintln!("nearwall: no parameter was fitted, so no model files were drawn");
@@ -113,7 +116,7 @@ fn run_impacts(arguments: &Arguments, file_of_model: &Path) -> CommandResult {
 
 /// Diagnoses the readings of a rig that a case of `nearwall simulate` describes.
 fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
-    let data = read_rig(arguments)?;
+    let data = super::read_rig(&arguments.data)?;
     let text = CaseText::from_file(case)?;
     let rigs = RigCase::all(&text, &data)?;
     let forward = SimulatedRig::new(&rigs)?;
@@ -127,7 +130,7 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
 
 /// Diagnoses with the impacts that OpenFOAM recorded below `folder`, in runs with the model file `model`.
 fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandResult {
-    let mut data = read_rig(arguments)?;
+    let mut data = super::read_rig(&arguments.data)?;
     let document = Document::from_file(model)?;
     let base = Model::from_toml(document.name(), document.text())?;
     let forward = ReplayedRig::new(folder, &data, &base)?;
@@ -142,15 +145,6 @@ fn run_recorded(arguments: &Arguments, folder: &Path, model: &Path) -> CommandRe
     super::print_page(&(limits + &summary(&found.diagnosis)), &arguments.out.join("report.html"))
 }
 
-/// Reads the readings of the rig.
-fn read_rig(arguments: &Arguments) -> Result<RigMeasurements, Box<dyn std::error::Error>> {
-    let file = arguments.data.display().to_string();
-    let source = File::open(&arguments.data).map_err(|error| format!("{file}: {error}"))?;
-    let data = RigMeasurements::read(&file, source)?;
-    super::note(&data.notes);
-    Ok(data)
-}
-
 fn diagnosed(
     arguments: &Arguments,
     forward: &dyn Forward,
@@ -158,18 +152,13 @@ fn diagnosed(
     model: &str,
     case: Option<&CaseText>,
 ) -> Result<RigDiagnosis, RigError> {
-    let bar = progress::spinner("candidates tested");
+    let bar = progress::spinner(TESTED);
     let options = options(arguments);
-    let found =
-        diagnose_rig(forward, data, model, &options, arguments.draws, case, &|what| tried(&bar, what));
+    let found = diagnose_rig(forward, data, model, &options, arguments.draws, case, &|what| {
+        progress::tell(&bar, TESTED, what)
+    });
     bar.finish_and_clear();
     found
-}
-
-/// Counts what was tried, and says what.
-fn tried(bar: &ProgressBar, what: &str) {
-    bar.inc(1);
-    bar.set_message(format!("candidates tested: {what}"));
 }
 
 fn write_impacts(

@@ -20,6 +20,8 @@ use std::path::Path;
 
 use clap::Parser;
 
+use crate::dataset::RigMeasurements;
+
 /// Result of a subcommand; the error's text names file, line or key and the remedy.
 type CommandResult<T = ()> = Result<T, Box<dyn std::error::Error>>;
 
@@ -90,6 +92,15 @@ fn note<N: std::fmt::Display>(notes: impl IntoIterator<Item = N>) {
     for note in notes {
         eprintln!("nearwall: {note}");
     }
+}
+
+/// Reads the readings of a rig and prints the notes on them.
+fn read_rig(path: &Path) -> Result<RigMeasurements, Box<dyn std::error::Error>> {
+    let file = path.display().to_string();
+    let source = std::fs::File::open(path).map_err(|error| format!("{file}: {error}"))?;
+    let data = RigMeasurements::read(&file, source)?;
+    note(&data.notes);
+    Ok(data)
 }
 
 /// Whether the reader of the output closed the pipe (`nearwall ... | head`), which is no fault of the input.

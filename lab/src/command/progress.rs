@@ -17,6 +17,12 @@ pub fn spinner(what: &'static str) -> ProgressBar {
     styled(ProgressBar::new_spinner(), what, "{spinner} {pos} {msg} {elapsed}")
 }
 
+/// Counts an item and says which one it is.
+pub fn tell(bar: &ProgressBar, what: &str, one: &str) {
+    bar.inc(1);
+    bar.set_message(format!("{what}: {one}"));
+}
+
 fn styled(bar: ProgressBar, what: &'static str, template: &str) -> ProgressBar {
     let bar = bar.with_message(what);
     match ProgressStyle::with_template(template) {

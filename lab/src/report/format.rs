@@ -40,17 +40,18 @@ pub fn shown_unit(unit: &str, largest: f64) -> (f64, String) {
 /// A number with its unit; shares (unit `1` or empty) have none.
 pub fn with_unit(value: f64, unit: &str) -> String {
     let (factor, unit) = shown_unit(unit, value);
-    match unit.as_str() {
-        "1" | "" => number(value),
-        _ => format!("{} {unit}", number(factor * value)),
-    }
+    format!("{}{}", number(factor * value), behind(&unit))
+}
+
+/// A unit behind a number; nothing for one without.
+fn behind(unit: &str) -> String {
+    if unit == "1" || unit.is_empty() { String::new() } else { format!(" {unit}") }
 }
 
 /// Two numbers with their unit: "5 to 200 µm".
 pub fn span([low, high]: [f64; 2], unit: &str) -> String {
     let (factor, unit) = shown_unit(unit, low.abs().max(high.abs()));
-    let unit = if unit == "1" || unit.is_empty() { String::new() } else { format!(" {unit}") };
-    format!("{} to {}{unit}", number(factor * low), number(factor * high))
+    format!("{} to {}{}", number(factor * low), number(factor * high), behind(&unit))
 }
 
 /// A share in per cent.

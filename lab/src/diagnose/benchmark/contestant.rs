@@ -43,7 +43,7 @@ impl Contestant {
     pub fn law(law: &NamedLaw, sets: &[ReadSet]) -> Result<Self, BenchmarkError> {
         let kind = EntryKind::Law(law.side as usize);
         let text = |base: &str, numbers: &Numbers| law.model_text(base, numbers);
-        let mut whole = Self::empty(law.name.clone(), kind);
+        let mut whole = Self::empty(law.name(), kind);
         for numbers in law.trials() {
             let one = models_of(sets, |base| text(base, &numbers).map_err(BenchmarkError::from))?;
             whole.decided = one.iter().zip(sets).map(|(model, set)| decided(model, set)).collect();

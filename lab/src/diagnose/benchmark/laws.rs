@@ -38,16 +38,18 @@ impl Side {
 #[derive(Debug, Clone)]
 pub(super) struct NamedLaw {
     pub side: Side,
-    /// The law; of a capture law with the viscosity law that it uses.
-    pub name: String,
+    model: &'static str,
+    /// The law of viscosity that a law of capture uses.
+    viscosity: Option<&'static str>,
     numbers: Vec<(&'static str, Search)>,
 }
 
 /// Every law of the library.
 pub(super) fn named_laws() -> Vec<NamedLaw> {
-    let law = |side, name: &str, numbers: &[(&'static str, Search)]| NamedLaw {
+    let law = |side, model, numbers: &[(&'static str, Search)]| NamedLaw {
         side,
-        name: name.to_owned(),
+        model,
+        viscosity: None,
         numbers: numbers.to_vec(),
     };
     let share = Search::Linear(0.05, 1.0);
@@ -70,25 +72,20 @@ pub(super) fn named_laws() -> Vec<NamedLaw> {
 
 /// Adhesion alone, beside which the laws of capture stand.
 pub(super) fn adhesion_alone() -> NamedLaw {
-    NamedLaw { side: Side::Capture, name: "none".to_owned(), numbers: Vec::new() }
+    NamedLaw { side: Side::Capture, model: "none", viscosity: None, numbers: Vec::new() }
 }
 
 /// Every law of capture by a melt; the constant limit of viscosity with each law of viscosity, the others that need one
 /// with Kalmanovitch and Frank's.
 pub(super) fn capture_laws() -> Vec<NamedLaw> {
-    let law = |name: String, numbers: Vec<_>| NamedLaw { side: Side::Capture, name, numbers };
+    let law = |model, viscosity, numbers| NamedLaw { side: Side::Capture, model, viscosity, numbers };
     // The literature has 8 to 1e7 Pa s.
     let reference = ("reference_viscosity", Search::Log(1.0, 1e8));
-    let mut laws: Vec<NamedLaw> =
-        ["fusion", "melt-fraction"].map(|name| law(name.to_owned(), Vec::new())).into();
-    for viscosity in VISCOSITY_LAWS {
-        laws.push(law(format!("viscosity {}", viscosity.name), vec![reference]));
-    }
-    laws.extend(
-        ["kinetic-energy", "droplet"]
-            .map(|name| law(format!("{name} {}", KALMANOVITCH_FRANK.name), Vec::new())),
-    );
-    laws
+    let by_sheet = ["fusion", "melt-fraction"].map(|model| law(model, None, Vec::new()));
+    let by_viscosity = VISCOSITY_LAWS.iter().map(|one| law("viscosity", Some(one.name), vec![reference]));
+    let others =
+        ["kinetic-energy", "droplet"].map(|model| law(model, Some(KALMANOVITCH_FRANK.name), Vec::new()));
+    by_sheet.into_iter().chain(by_viscosity).chain(others).collect()
 }
 
 /// The parameters without a default: every fit searches them.
@@ -101,6 +98,11 @@ fn fitted(parameters: &[Parameter]) -> Vec<(&'static str, Search)> {
 pub(super) type Numbers = Vec<(&'static str, f64)>;
 
 impl NamedLaw {
+    /// The law; of a law of capture with the law of viscosity that it uses.
+    pub fn name(&self) -> String {
+        [self.model].into_iter().chain(self.viscosity).collect::<Vec<_>>().join(" ")
+    }
+
     /// Every combination of the values of its numbers; one without any for a law that has none.
     pub fn trials(&self) -> Vec<Numbers> {
         let mut all: Vec<Numbers> = vec![Vec::new()];
@@ -121,9 +123,8 @@ impl NamedLaw {
             Item::Table(Table::from_iter([("model", value("thornton-ning")), ("yield_ratio", value(1.6))]));
         laws["tangential"] =
             Item::Table(Table::from_iter([("model", value("constant")), ("e_t", value(0.8))]));
-        let mut words = self.name.split(' ');
-        let mut own = Table::from_iter([("model", value(words.next().unwrap_or_default()))]);
-        own.extend(words.next().map(|viscosity| ("law", value(viscosity))));
+        let mut own = Table::from_iter([("model", value(self.model))]);
+        own.extend(self.viscosity.map(|viscosity| ("law", value(viscosity))));
         own.extend(numbers.iter().map(|(name, number)| (*name, value(*number))));
         laws[self.side.table()] = Item::Table(own);
         with_laws(base, &laws)
@@ -183,8 +184,8 @@ mod tests {
                 let text = law.model_text(BASE, numbers).unwrap();
                 let model =
                     Model::from_toml("m.toml", &text).unwrap_or_else(|error| panic!("{error}\n{text}"));
-                let names = [model.normal_law().name(), model.tangential_law().name()].map(str::to_owned);
-                assert_eq!(names[law.side as usize], law.name);
+                let names = [model.normal_law().name(), model.tangential_law().name()];
+                assert_eq!(names[law.side as usize], law.name());
                 assert!(model.terms().is_empty() && text.contains("work_of_adhesion = 0.2"), "{text}");
             }
         }
@@ -206,7 +207,7 @@ mod tests {
     #[test]
     fn a_law_with_two_numbers_is_tried_with_all_pairs() {
         let laws = named_laws();
-        let count = |name: &str| laws.iter().find(|law| law.name == name).unwrap().trials().len();
+        let count = |name: &str| laws.iter().find(|law| law.name() == name).unwrap().trials().len();
         assert_eq!((count("brach-dunn"), count("bons"), count("el-batsh")), (169, 1, 13));
     }
 }

@@ -124,7 +124,7 @@ impl Benchmark {
     #[must_use]
     pub fn law_names() -> Vec<String> {
         let laws = named_laws().into_iter().chain(capture_laws());
-        let names: BTreeSet<String> = laws.map(|law| law.name).collect();
+        let names: BTreeSet<String> = laws.map(|law| law.name()).collect();
         names.into_iter().collect()
     }
 

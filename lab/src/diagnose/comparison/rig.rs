@@ -5,7 +5,7 @@
 //! of the case's own numbers, over which it is averaged. The effect of the latter is that on the
 //! first model's readings.
 
-use super::super::rig::{Readings, readings};
+use super::super::rig::{Readings, predictions, readings};
 use super::bootstrap::Bootstrap;
 use super::measure::{ComparisonMeasure, MEASURES, Totals};
 use super::record::{self, Comparison, GroupedRows, ModelRows};
@@ -88,13 +88,6 @@ pub fn compare_rig(
     let rows = GroupedRows { read, selected: None, used, groups, group_by: "experiment" };
     let (of_model, scatter) = (vec![ModelRows::default(); models.len()], vec![[0.0; 2]; models.len()]);
     Ok(record::comparison(&names, &bootstrap, rows, of_model, scatter, seed))
-}
-
-/// What a model predicts for all readings.
-fn predictions(forward: &SimulatedRig<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
-    let experiments = 0..forward.experiments().len();
-    let all = experiments.map(|one| forward.predict(one, &|model| model.clone()));
-    Ok(all.collect::<Result<Vec<_>, _>>()?.into_iter().flatten().collect())
 }
 
 /// Sum and weight of each measure, by experiment.

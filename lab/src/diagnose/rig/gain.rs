@@ -76,7 +76,7 @@ impl HeldOutExperiments {
         let weights = vec![1.0; study.data.experiments];
         let [before, after] = [0, 1].map(|which| {
             let predicted: Vec<PredictedReading> = self.predicted.iter().map(|pair| pair[which]).collect();
-            study.scores(&study.data.prepare(&predicted), &weights)
+            study.data.shares(&study.data.prepare(&predicted), &weights)
         });
         after.iter().zip(before).map(|(after, before)| (after - before).max(-MOST_OF_ONE)).sum::<f64>() < 0.0
     }

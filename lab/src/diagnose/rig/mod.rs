@@ -30,7 +30,7 @@ pub use blame::{Blame, BlamedNumber, Parties};
 pub use next::NextExperiment;
 pub(super) use noise::Data as Readings;
 pub use report::{KindErrors, RigDiagnosis, RigRow};
-pub(super) use study::readings;
+pub(super) use study::{predictions, readings};
 
 use super::constants::THOROUGH_RIG;
 use super::first_reasons;

@@ -81,7 +81,7 @@ impl<'a> RigSearch<'a> {
         keys.sort_unstable();
         let freedom = additions.iter().map(|one| one.axes.len() as f64).sum();
         let log_prior = additions.iter().enumerate().map(|(place, one)| self.prior(place, one)).sum();
-        let scores = self.study.scores(&prepared, self.weights);
+        let scores = self.study.data.shares(&prepared, self.weights);
         Explanation { keys, fitted: FittedRig { additions, prepared }, scores, freedom, log_prior }
     }
 

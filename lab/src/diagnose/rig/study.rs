@@ -3,7 +3,7 @@
 use super::super::search::descend;
 use super::addition::{RigAddition, moved};
 use super::inputs::RigInputs;
-use super::noise::{Data, PreparedReadings};
+use super::noise::Data;
 use super::prediction_table::{PredictionTable, predict};
 use crate::rig::{Forward, PredictedReading, PredictionError};
 
@@ -26,6 +26,16 @@ pub(super) struct RigStudy<'a> {
     pub table: PredictionTable,
 }
 
+/// What the model of a rig predicts for all readings.
+///
+/// # Errors
+/// Why it cannot decide an impact.
+pub(in crate::diagnose) fn predictions(
+    forward: &dyn Forward,
+) -> Result<Vec<PredictedReading>, PredictionError> {
+    predict(forward, &[])
+}
+
 /// The readings with the errors of the case, and their predictions by the base model.
 ///
 /// # Errors
@@ -33,7 +43,7 @@ pub(super) struct RigStudy<'a> {
 pub(in crate::diagnose) fn readings(
     forward: &dyn Forward,
 ) -> Result<(Data, Vec<PredictedReading>), PredictionError> {
-    let base = predict(forward, &[])?;
+    let base = predictions(forward)?;
     let mut data = Data::new(forward.experiments(), &base);
     let prepared = data.prepare(&base);
     let mut moved = Vec::new();
@@ -71,11 +81,6 @@ impl<'a> RigStudy<'a> {
 
     pub fn score_of(&self, predicted: &[PredictedReading], weights: &[f64]) -> f64 {
         self.data.score(&self.data.prepare(predicted), self.data.values(), weights)
-    }
-
-    /// Log likelihood of each experiment with a weight [nats].
-    pub fn scores(&self, prepared: &PreparedReadings, weights: &[f64]) -> Vec<f64> {
-        self.data.shares(prepared, weights)
     }
 
     /// All parameters fitted together, from their present values.
