@@ -238,25 +238,35 @@ case_stock-coal() {
     meshed blockMesh && meshed topoSet && stock_runs
 }
 
+# A nozzle close to the bottom of a coarse bomb
+sprayed_on_the_bottom() {
+    edited system/blockMeshDict 's/\(41 41 100\)/(8 8 20)/'
+    merged_in constant/sprayCloudProperties 'subModels { injectionModels { model1 { position (0 0.006 0); parcelsPerSecond 2e6; } } }'
+}
+
 # Drops of n-heptane from a nozzle close to the bottom of the bomb
 case_stock-spray() {
     stock_case spray sprayFoam/aachenBomb || return
-    edited system/blockMeshDict 's/\(41 41 100\)/(8 8 20)/'
-    merged_in constant/sprayCloudProperties 'subModels { injectionModels { model1 { position (0 0.006 0); parcelsPerSecond 2e6; } } }'
+    sprayed_on_the_bottom
     clouds=sprayCloud walls=walls
     stock_time 5e-6 40
     meshed blockMesh && stock_runs
+}
+
+# A blast onto the wall of a coarse cyclone
+blown_at_a_cyclone() {
+    mkdir -p constant/triSurface
+    gzip -dc "$(stock_folder)/resources/geometry/cyclone.stl.gz" > constant/triSurface/cyclone.stl
+    edited system/blockMeshDict 's/\(33 33 63\)/(13 13 25)/'
+    edited system/snappyHexMeshDict 's/^snap +true;/snap false;/'
+    merged_in constant/kinematicCloudProperties 'subModels { injectionModels { model1 { SOI 0; massTotal 4; parcelsPerSecond 30000; U0 (-60 0 0); } } }'
 }
 
 # A blast onto the wall opposite the inlet. The coarse mesh is not fitted to the surface: the gas would diverge in its cells.
 case_stock-cyclone() {
     offers snappyHexMesh || return
     stock_case cyclone MPPICFoam/cyclone || return
-    mkdir -p constant/triSurface
-    gzip -dc "$(stock_folder)/resources/geometry/cyclone.stl.gz" > constant/triSurface/cyclone.stl
-    edited system/blockMeshDict 's/\(33 33 63\)/(13 13 25)/'
-    edited system/snappyHexMeshDict 's/^snap +true;/snap false;/'
-    merged_in constant/kinematicCloudProperties 'subModels { injectionModels { model1 { SOI 0; massTotal 4; parcelsPerSecond 30000; U0 (-60 0 0); } } }'
+    blown_at_a_cyclone
     clouds=kinematicCloud walls="walls inlet" others="outlet { type escape; }"
     stock_time 4e-4 60
     meshed blockMesh && meshed snappyHexMesh -overwrite && stock_runs && stock_own

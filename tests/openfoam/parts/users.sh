@@ -167,11 +167,7 @@ case_user-column() {
 case_user-cyclone() {
     offers snappyHexMesh || return
     user_case cyclone MPPICFoam/cyclone || return
-    mkdir -p constant/triSurface
-    gzip -dc "$(stock_folder)/resources/geometry/cyclone.stl.gz" > constant/triSurface/cyclone.stl
-    edited system/blockMeshDict 's/\(33 33 63\)/(13 13 25)/'
-    edited system/snappyHexMeshDict 's/^snap +true;/snap false;/'
-    merged_in constant/kinematicCloudProperties 'subModels { injectionModels { model1 { SOI 0; massTotal 4; parcelsPerSecond 30000; U0 (-60 0 0); } } }'
+    blown_at_a_cyclone
     user_cloud kinematicCloud "model #{ $sand_on_steel
         [walls.default.resuspension]
         work_of_adhesion = 0.01 #}; stuck remove; memory { acceleration 10; shed { parcels yes; } } patches { inlet { type rebound; } }"
@@ -232,8 +228,7 @@ case_user-coal() {
 # Fuel that hits the wall of the bomb, stays and evaporates there
 case_user-spray() {
     user_case spray sprayFoam/aachenBomb || return
-    edited system/blockMeshDict 's/\(41 41 100\)/(8 8 20)/'
-    merged_in constant/sprayCloudProperties 'subModels { injectionModels { model1 { position (0 0.006 0); parcelsPerSecond 2e6; } } }'
+    sprayed_on_the_bottom
     draws=yes react=yes
     user_cloud sprayCloud "model #{ $ash_on_steel #}; stuck react; patches { walls { type stick; } }"
     user_time 5e-6 40
