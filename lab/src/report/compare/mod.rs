@@ -67,7 +67,7 @@ const METHOD: [&str; 3] = [
 const METHOD_OF_RIGS: [&str; 3] = [
     "No parameter of a model is fitted here. The case simulates every experiment with each model, with the same \
         particles and the same random numbers.",
-    "The models are ranked by the mean log likelihood of a reading, as `nearwall diagnose --case` computes it: errors \
+    "The models are ranked by the mean log likelihood of a reading, as nearwall diagnose --case computes it: errors \
         of counts, stated errors, scatter between runs, and the errors of the case's own numbers.",
     "Intervals hold 95 % of 1000 bootstrap resamples of the experiments, the same for all models. A difference whose \
         interval includes 0 does not tell two models apart.",
