@@ -29,8 +29,10 @@ pub(super) enum Class {
     Curve,
     /// A curve over a dimensionless group.
     Group,
-    /// A curve over an input of laws, without a law, or a surface over two columns.
-    Lawless,
+    /// A curve over an input of laws, without a law.
+    Input,
+    /// A surface over two columns.
+    Surface,
     /// A mistake in the numbers, an instrument or a geometry.
     Rival,
     /// A wrong number of the case of a rig.
@@ -50,8 +52,9 @@ impl Class {
         match columns.collect::<Vec<_>>()[..] {
             [] => Self::Level,
             [column] if data.covariates[column].is_group() => Self::Group,
-            [column] if !data.covariates[column].is_input() => Self::Curve,
-            _ => Self::Lawless,
+            [column] if data.covariates[column].is_input() => Self::Input,
+            [_] => Self::Curve,
+            _ => Self::Surface,
         }
     }
 
@@ -67,7 +70,7 @@ impl Class {
             Self::Noise | Self::Case => 0.5,
             Self::Number => 0.3,
             Self::Curve | Self::Rival => 0.2,
-            Self::Level | Self::Group | Self::Lawless => 0.06,
+            Self::Level | Self::Group | Self::Input | Self::Surface => 0.06,
         }
     }
 }

@@ -119,8 +119,8 @@ impl CauseChoice {
     /// Chooses among explanations on the fitted rows.
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
-        let (grounds, readings) = grounds(data, task.groups, task.text, evidence);
-        let search = ImpactSearch::new((&grounds, readings), evidence, task.effort.refitted, task.progress);
+        let grounds = grounds(data, task.groups, task.text, evidence);
+        let search = ImpactSearch::new(&grounds, evidence, task.effort.refitted, task.progress);
         let mut visited = explore(&search, search.starts(), task.effort.expanded);
         temper(&mut visited, &grounds);
         let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];

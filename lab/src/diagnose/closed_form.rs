@@ -3,7 +3,7 @@
 //! Every form of the library ([`FORMS`]) is fitted in each way in which it can act, and competes with the free curve by
 //! evidence (Schwarz 1978). Of `e_n` and `e_t` the sum of weighted squares is minimised: a form is linear in most of
 //! its parameters, which a least-squares solution gives for each place of the others (variable projection; Golub and
-//! Pereyra 1973). Captures have a threshold with a width, by the likelihood of the outcomes.
+//! Pereyra 1973). Captures have a threshold with a width, or level off, by the likelihood of the outcomes.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -33,6 +33,8 @@ const COARSE_POINTS: usize = 200;
 const ITERATIONS: u64 = 40;
 /// Size of its first simplex.
 const SIMPLEX: f64 = 0.03;
+/// First guess of a share of captures that has no default [1].
+const FIRST_SHARE: f64 = 0.7;
 /// Least number of points of a form beyond its parameters.
 const LEAST_LEFT: usize = 2;
 
@@ -299,9 +301,9 @@ impl Points {
         let is_offered = |form: &&FormInfo| match form.name {
             "constant" => false,
             "logistic" => self.not_negative && self.range[1] > self.range[0],
+            "saturating" => self.not_negative,
             _ if self.observable == Observable::Capture => false,
             "power" => self.positive,
-            "saturating" => self.not_negative,
             _ => true,
         };
         let forms = FORMS.iter().filter(is_offered);
@@ -435,18 +437,22 @@ impl Points {
 
     /// Parameters and minus the log likelihood of the outcomes [nats].
     fn fit_captures(&self, kind: &Kind) -> Option<(Vec<f64>, f64)> {
-        let fits = [1.0, -1.0].map(|sign| self.fit_threshold(kind, sign));
-        fits.into_iter().flatten().min_by(|a, b| a.1.total_cmp(&b.1))
+        let has_sign = kind.info.parameters.iter().any(|parameter| parameter.name == "n");
+        let signs: &[f64] = if has_sign { &[1.0, -1.0] } else { &[1.0] };
+        let fits = signs.iter().filter_map(|sign| self.fit_capture(kind, *sign));
+        fits.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The same for a threshold that rises or falls.
-    fn fit_threshold(&self, kind: &Kind, sign: f64) -> Option<(Vec<f64>, f64)> {
+    fn fit_capture(&self, kind: &Kind, sign: f64) -> Option<(Vec<f64>, f64)> {
         let mut axes = self.axes(kind);
         let mut places = nonlinear(kind.info);
         let further =
             (0..kind.free.len()).filter(|p| kind.free[*p] && !places.contains(p)).collect::<Vec<_>>();
         let starts = grid(axes.len(), PLACES[1]).into_iter().map(|mut at| {
-            at.extend(further.iter().map(|place| kind.info.parameters[*place].default.unwrap_or(0.0)));
+            at.extend(
+                further.iter().map(|place| kind.info.parameters[*place].default.unwrap_or(FIRST_SHARE)),
+            );
             at
         });
         let starts: Vec<Vec<f64>> = starts.collect();
@@ -516,10 +522,11 @@ impl Points {
         Some(at.iter().map(one).collect())
     }
 
-    /// Thresholds on a grid of place and steepness, with their weights.
-    fn weighted_thresholds(&self, closed: &ClosedForm) -> Vec<(Vec<f64>, f64)> {
+    /// Forms of capture on a grid of two parameters, with their weights.
+    fn weighted_forms(&self, closed: &ClosedForm) -> Vec<(Vec<f64>, f64)> {
         let kind = Kind { info: closed.info, acts: closed.acts, free: closed.free.clone() };
-        let (axes, places) = (self.axes(&kind), nonlinear(kind.info));
+        let (mut axes, places) = (self.axes(&kind), on_grid(closed));
+        axes.resize_with(places.len(), || SearchAxis::linear(0.0, 1.0));
         let parameters = |at: &Vec<f64>| {
             let mut parameters = closed.parameters.clone();
             for ((place, axis), at) in places.iter().zip(&axes).zip(at) {
@@ -533,11 +540,11 @@ impl Points {
         all.into_iter().zip(costs).map(|(parameters, cost)| (parameters, (least - cost).exp())).collect()
     }
 
-    /// Intervals of the place and the steepness of a threshold of captures.
+    /// Intervals of two parameters of a form of captures: of a threshold its place and its steepness.
     fn credible(&self, closed: &ClosedForm) -> Vec<[f64; 2]> {
-        let weighted = self.weighted_thresholds(closed);
+        let weighted = self.weighted_forms(closed);
         let mut ends = vec![[f64::NAN; 2]; closed.parameters.len()];
-        for place in nonlinear(closed.info) {
+        for place in on_grid(closed) {
             let unit = if closed.info.parameters[place].unit == "input" { self.unit } else { 1.0 };
             let values = weighted.iter().map(|(parameters, weight)| (unit * parameters[place], *weight));
             ends[place] = middle(values);
@@ -547,13 +554,22 @@ impl Points {
 
     /// The middle 95 % of the probability of capture at these places of the column.
     fn credible_values(&self, closed: &ClosedForm, at: &[f64]) -> Vec<[f64; 2]> {
-        let weighted = self.weighted_thresholds(closed);
+        let weighted = self.weighted_forms(closed);
         let one = |x: &f64| {
             let value = |parameters: &[f64]| closed.info.value(parameters, x / self.unit).clamp(0.0, 1.0);
             middle(weighted.iter().map(|(parameters, weight)| (value(parameters), *weight)))
         };
         at.iter().map(one).collect()
     }
+}
+
+/// The places of the two parameters of a form of capture whose probabilities are given.
+fn on_grid(closed: &ClosedForm) -> Vec<usize> {
+    let mut places = nonlinear(closed.info);
+    let linear: Vec<usize> = fitted(closed).into_iter().filter(|place| !places.contains(place)).collect();
+    places.extend(linear);
+    places.truncate(2);
+    places
 }
 
 /// The places of the fitted parameters.

@@ -255,7 +255,7 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         return format!("captured {side} {column} = {}", number(closed.parameters[0]));
     }
     let formula = closed.info.equation.split(", ").next().unwrap_or_default();
-    let value = replaced(formula, word).replace("(1 - 0)", "1").replace("0 + ", "");
+    let value = without_zeros(&replaced(formula, word));
     let value = twice_negative(&value).unwrap_or(value);
     let formula = match closed.acts {
         Operation::Set => format!("{name} = {value}"),
@@ -264,6 +264,16 @@ fn equation(closed: &ClosedForm, observable: Observable, column: &str) -> String
         Operation::Times => format!("{name} = base ({value})"),
     };
     if is_plain { formula } else { format!("{formula} with x = {column}") }
+}
+
+/// An equation without terms that are 0.
+fn without_zeros(equation: &str) -> String {
+    let text = equation.strip_prefix("0 + ").unwrap_or(equation);
+    let text = text.strip_suffix(" + 0").unwrap_or(text);
+    match text.split_once(" - 0)").and_then(|(before, after)| Some((before.strip_prefix('(')?, after))) {
+        Some((before, after)) => format!("{before}{after}"),
+        None => text.to_owned(),
+    }
 }
 
 /// An equation without a power `^-(-n)`; `None` where there is none.

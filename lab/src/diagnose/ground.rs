@@ -1,5 +1,6 @@
 //! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
 
+use super::candidate::{Class, FURTHER};
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
 use super::groups::GroupColumn;
@@ -23,6 +24,8 @@ pub(super) struct Ground {
     pub slope: Vec<f64>,
     /// Number of fitted parameters.
     pub freedom: f64,
+    /// Logarithm of the prior probability of a rival over that of the rows as they are [nats].
+    pub log_prior: f64,
     /// Whether additions can be looked for beside it.
     pub open: bool,
 }
@@ -31,7 +34,15 @@ impl Ground {
     /// The rows as they are.
     pub fn plain(data: &DataSplit) -> Self {
         let slope = vec![0.0; data.search.len()];
-        Self { key: String::new(), question: None, data: data.clone(), slope, freedom: 0.0, open: true }
+        Self {
+            key: String::new(),
+            question: None,
+            data: data.clone(),
+            slope,
+            freedom: 0.0,
+            log_prior: 0.0,
+            open: true,
+        }
     }
 
     /// The rows with errors that groups share.
@@ -54,19 +65,18 @@ impl Ground {
 
 /// Inputs whose errors may be unknown to the file, and their size as a share of the value.
 const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
-const SHARES: [f64; 4] = [0.03, 0.07, 0.15, 0.3];
+const SHARES: [f64; 8] = [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3];
 /// Shares of gross errors beside the expected one [1].
 const RUBBISH: [f64; 2] = [0.1, 0.25];
 
-/// All grounds, the rows as they are first, and the number of other readings that were tried; `text`
-/// is the file of the base model. Of the other readings those stay that have more evidence than the
-/// rows as they are.
+/// All grounds, the rows as they are first; `text` is the file of the base model. Of the other readings those stay
+/// that have more evidence than the rows as they are.
 pub(super) fn grounds(
     data: &DataSplit,
     groups: &[GroupColumn],
     text: &str,
     evidence: Evidence,
-) -> (Vec<Ground>, usize) {
+) -> Vec<Ground> {
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
     if data.noise.iter().any(|offset| offset.gross > 0.0) {
@@ -74,19 +84,17 @@ pub(super) fn grounds(
     }
     // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
-    let unstated = UNSTATED.iter().filter(|name| may_have_errors(data, name)).filter_map(|name| {
-        let read = |data: &DataSplit, share: f64| with_input_errors(data, name, share);
-        best(data, &searched, SHARES.to_vec(), |_| Vec::new(), evidence, &read)
-    });
-    all.extend(unstated);
+    all.extend(unstated_errors(data, &searched, evidence));
     let others: Vec<OtherReading> = slips(&data.base, text).into_iter().chain(readings(data)).collect();
-    all.extend(others.iter().filter_map(|other| {
+    let read = others.iter().filter_map(|other| {
         let near = |value: f64| other.near(value);
         best(data, &searched, other.values.clone(), near, evidence, &|data, value| read(data, other, value))
-    }));
+    });
     let skewed = skewed(data);
-    all.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
-    (all, others.len() + UNSTATED.len() + 1)
+    let read = read.chain((worth(&skewed, evidence) > 0.0).then_some(skewed));
+    let log_prior = Class::Rival.log_prior(others.len() + 1);
+    all.extend(read.map(|ground| Ground { log_prior, ..ground }));
+    all
 }
 
 /// Log evidence of the base model on a ground over that on the rows as they are [nats].
@@ -115,25 +123,62 @@ fn best(
     if worth > 0.0 { read(data, value) } else { None }
 }
 
+/// Inputs and the sizes of their errors, as shares of the value [1].
+type Errors = Vec<(&'static str, f64)>;
+
+/// The rows with errors that the file does not state: of each input, and of several inputs where these have more
+/// evidence together than one alone.
+fn unstated_errors(data: &DataSplit, searched: &DataSplit, evidence: Evidence) -> Vec<Ground> {
+    let mut found = with_further_errors(searched, &Vec::new(), evidence);
+    let largest = |found: &[(f64, Errors)]| found.iter().max_by(|a, b| a.0.total_cmp(&b.0)).cloned();
+    let mut most = largest(&found);
+    while let Some(known) = most {
+        most = largest(&with_further_errors(searched, &known.1, evidence)).filter(|more| more.0 > known.0);
+        found.extend(most.clone());
+    }
+    found.iter().filter_map(|(_, errors)| with_input_errors(data, errors)).collect()
+}
+
+/// For each further input the known errors beside its own best size, with the log evidence over the rows as they
+/// are, where that is positive [nats].
+fn with_further_errors(searched: &DataSplit, known: &Errors, evidence: Evidence) -> Vec<(f64, Errors)> {
+    let is_open = |name: &&str| known.iter().all(|one| one.0 != *name) && may_have_errors(searched, name);
+    let sized = |name: &'static str, share: f64| {
+        let errors = known.iter().copied().chain([(name, share)]).collect();
+        Some((worth(&with_input_errors(searched, &errors)?, evidence), errors))
+    };
+    let best = |name: &'static str| {
+        let sizes = SHARES.iter().filter_map(|share| sized(name, *share));
+        sizes.filter(|(worth, _)| *worth > 0.0).max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    UNSTATED.into_iter().filter(is_open).filter_map(best).collect()
+}
+
 /// Whether an input varies and states no errors.
 fn may_have_errors(data: &DataSplit, name: &str) -> bool {
     data.range(name).is_some() && data.rows.iter().all(|row| row.input_errors.of(name) <= 0.0)
 }
 
-/// The rows with errors of an input that the file does not state, of a size as a share of the value.
-fn with_input_errors(data: &DataSplit, name: &str, share: f64) -> Option<Ground> {
+/// The rows with errors of inputs that the file does not state.
+fn with_input_errors(data: &DataSplit, errors: &Errors) -> Option<Ground> {
     let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
-    assume(&data.base, name, share, &mut rows, &mut noise)?;
+    for (name, share) in errors {
+        assume(&data.base, name, *share, &mut rows, &mut noise)?;
+    }
     let decided = |&row: &usize| data.base.check(rows[row].wall, &rows[row].impact).is_ok();
+    let names: Vec<&str> = errors.iter().map(|(name, _)| *name).collect();
+    let sizes = errors.iter().map(|(name, share)| format!("{name} had errors of {:.0} %", 100.0 * share));
     let question = format!(
-        "These numbers fit if {name} had errors of {:.0} % that the file does not state: how well is it known?",
-        100.0 * share
+        "These numbers fit if {}, which the file does not state: how well {} known?",
+        sizes.collect::<Vec<_>>().join(" and "),
+        if names.len() == 1 { "is it" } else { "are they" }
     );
     data.search.iter().all(decided).then(|| Ground {
-        key: format!("artefact:error-of-{name}"),
+        key: format!("artefact:error-of-{}", names.join("-and-")),
         question: Some(question),
         data: DataSplit { rows: rows.into(), noise: noise.into(), ..data.clone() },
-        freedom: 1.0,
+        freedom: errors.len() as f64,
+        log_prior: Class::Noise.log_prior(UNSTATED.len()) + (errors.len() - 1) as f64 * FURTHER.ln(),
         ..Ground::plain(data)
     })
 }
@@ -163,6 +208,7 @@ fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
         data: changed,
         slope,
         freedom: other.freedom,
+        log_prior: 0.0,
         open: true,
     })
 }

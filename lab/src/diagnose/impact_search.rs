@@ -37,8 +37,6 @@ pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
 /// The search on some grounds.
 pub(super) struct ImpactSearch<'a> {
     grounds: &'a [Ground],
-    /// Number of other readings that were tried.
-    readings: usize,
     evidence: Evidence,
     /// Explanations of each expansion that are fitted together.
     refitted: usize,
@@ -61,24 +59,23 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
 
 impl<'a> ImpactSearch<'a> {
     pub fn new(
-        (grounds, readings): (&'a [Ground], usize),
+        grounds: &'a [Ground],
         evidence: Evidence,
         refitted: usize,
         progress: &'a (dyn Fn(&str) + Sync),
     ) -> Self {
-        Self { grounds, readings, evidence, refitted, progress }
+        Self { grounds, evidence, refitted, progress }
     }
 
     /// The base model on every ground that is no noise.
     pub fn starts(&self) -> Vec<ImpactExplanation<'a>> {
         let start = |(place, ground): (usize, &'a Ground)| {
             let hypothesis = Hypothesis::base(&ground.data);
-            let log_prior = if ground.is_rival() { Class::Rival.log_prior(self.readings) } else { 0.0 };
             let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
             let scores = ground.scores(&hypothesis);
             let freedom = ground.freedom + self.beyond_stated(&hypothesis);
             let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };
-            Explanation { keys, fitted, scores, freedom, log_prior }
+            Explanation { keys, fitted, scores, freedom, log_prior: ground.log_prior }
         };
         let is_start = |(place, ground): &(usize, &Ground)| *place == 0 || ground.is_rival();
         self.grounds.iter().enumerate().filter(is_start).map(start).collect()

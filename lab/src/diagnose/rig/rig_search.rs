@@ -225,7 +225,7 @@ fn class(addition: &RigAddition) -> Class {
         Kind::Curve { .. } | Kind::Form(_) => match addition.over() {
             None => Class::Level,
             Some(over) if over.input.is_group() => Class::Group,
-            Some(_) => Class::Lawless,
+            Some(_) => Class::Input,
         },
         Kind::Case { .. } => Class::Case,
     }
