@@ -137,8 +137,9 @@ fn rigs_with_a_group() {
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 
-/// Effects of about ten standard errors are never passed over in silence. Which cause is named is
-/// scored by the campaign: from mean `e_t` alone a friction is not told from a yield ratio.
+/// Effects of about ten standard errors are never passed over in silence where a test that knows them notices them: six
+/// readings whose errors only their scatter tells may hide one. Which cause is named is scored by the campaign: from
+/// mean `e_t` alone a friction is not told from a yield ratio.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -150,7 +151,7 @@ fn clear_effects_are_noticed() {
     let recipes = sets::recipes(3).into_iter().filter(|recipe| clear.contains(&recipe.name.as_str()));
     let judged: Vec<_> = recipes
         .map(|recipe| {
-            let set = recipe.make(seed);
+            let set = (seed..).map(|seed| recipe.make(seed)).find(|set| set.oracle.notices).unwrap();
             score::judge(&set, &run::run(&set, seed))
         })
         .collect();
