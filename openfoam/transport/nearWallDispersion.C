@@ -21,13 +21,27 @@ Foam::nearWallDispersion<CloudType>::nearWallDispersion
         (
             dict.subOrEmptyDict(typeName + "Coeffs"), "seed", 1
         )
+    ),
+    peakHeight_
+    (
+        nearWall::readOr<scalar>
+        (
+            dict.subOrEmptyDict(typeName + "Coeffs"), "peakHeight", -1
+        )
     )
 {
     nearWall::checkBuild();
+    const dictionary coeffs(dict.subOrEmptyDict(typeName + "Coeffs"));
     nearWall::refuseUnknownKeys
     (
-        dict.subOrEmptyDict(typeName + "Coeffs"), wordList({"seed"}), typeName
+        coeffs, wordList({"seed", "peakHeight"}), typeName
     );
+    if (coeffs.found("peakHeight") && !(peakHeight_ >= 0))
+    {
+        FatalIOErrorInFunction(coeffs)
+            << "peakHeight: a height of at least 0 m, not " << peakHeight_
+            << exit(FatalIOError);
+    }
 }
 
 
@@ -132,6 +146,10 @@ Foam::vector Foam::nearWallDispersion<CloudType>::update
     nw_walk_init(&walk);
     if (!gas_->describe(walk, celli, place)) return Uc;
 
+    if (peakHeight_ >= 0 && walk.friction_velocity > 0)
+    {
+        walk.wall_distance += 0.5*p.d() + peakHeight_;
+    }
     nearWall::walkRecord record = recordOf(p, place, tTurb);
     walk.seed = seed_;
     walk.key = record.key;

@@ -55,7 +55,7 @@ channel_field() { # name class dimensions value wall
 
 # Fills the channel evenly with parcels of a relaxation time over nu/u_tau2, without weight. The middle stays free, where ranks
 # meet: OpenFOAM lets a parcel that crosses in the step of its injection lose the rest of it
-fill_channel() { # count relaxation dispersion wall-interaction
+fill_channel() { # count relaxation dispersion[@peak-height] wall-interaction
     { header vectorField parcels; echo "("
       awk -v n="$1" 'BEGIN { srand(5); for (i = 0; i < n; i++) printf "(%.9f %.9f %.9f)\n", 0.01*rand(), 0.01*rand(), (i % 2 ? 1 : -1)*(0.0003 + 0.00969*rand()) }'
       echo ")"; } > constant/parcels
@@ -66,7 +66,8 @@ subModels
     particleForces { sphereDrag; }
     injectionModels { model1 { massTotal 1; U0 (4 0 0); sizeDistribution { fixedValueDistribution
         { value $(awk -v t="$2" 'BEGIN { printf "%.9g", sqrt(18*1.8e-5*t*1.5e-5/0.09/1000) }'); } } } }
-    dispersionModel $3;
+    dispersionModel ${3%@*};
+    $([ "$3" = "${3%@*}" ] || echo "${3%@*}Coeffs { peakHeight ${3#*@}; }")
     patchInteractionModel standardWallInteraction;
     standardWallInteractionCoeffs { type $4; e 1; mu 0; }
 }
@@ -90,7 +91,7 @@ fly_channel() { # name folder count relaxation dispersion wall-interaction end [
 }
 
 # Within a factor of two of 3.25e-4 tau+^2 (McCoy and Hanratty 1977) to 6e-4 tau+^2 up to 10 and of 0.1 to 0.17 above (Liu and
-# Agarwal 1974); at 3 known to be low, at 1 only no more than twice
+# Agarwal 1974); at 3 known to be low, but not on peaks of a quarter of the viscous length; at 1 only no more than twice
 case_dispersion() {
     local row
     channel "$work/dispersion" || return
@@ -99,6 +100,7 @@ case_dispersion() {
         IFS=: read -ra row <<< "$row"
         deposits "${row[@]}" nearWallDispersion || return
     done
+    deposits 3 2.9e-3 5.4e-3 nearWallDispersion@1.25e-5 || return
     # For comparison
     for row in 30:0:9 100:0:9 1:0:9:coarse 10:0:9:coarse 100:0:9:coarse; do
         IFS=: read -ra row <<< "$row"
