@@ -660,6 +660,13 @@ class Model:
         _check(_library.nw_heat_brought(self._handle, byref(impact), heat_capacity, byref(found)))
         return found.value
 
+    def contact_heat(self, v_n: float, wall: Wall = 0, **inputs: Union[float, str]) -> float:
+        """Heat [J] that one particle gives to the wall while it touches it and rebounds, where the wall's `contact_heat`
+        asks for it."""
+        impact, found = self._impact(wall, {"v_n": v_n, **inputs}), c_double()
+        _check(_library.nw_contact_heat(self._handle, byref(impact), byref(found)))
+        return found.value
+
     def film_velocity(self, deposit: Deposit, T_w: float, gravity_along: float, heat_flux: Optional[float] = None) -> float:
         """Mean speed [m/s] at which the melt runs down a wall of T_w [K]; gravity along the wall in m/s2. With a `heat_flux` to a
         cooled wall [W/m2], T_w is that of the surface, and the melt is colder below."""
