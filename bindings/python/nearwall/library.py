@@ -166,6 +166,7 @@ FUNCTIONS = {
     "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
     "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
+    "nw_contact_heat": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double)]),
     "nw_heat_brought": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
