@@ -17,8 +17,9 @@
 //!
 //! `T` temperatures [K], `a` largest radius of the contact [m], `t` its duration [s] ([`touch`](super::touch)), `k`
 //! conductivity [W/(m K)], `rho` density [kg/m³], `c` heat capacity [J/(kg K)], `kappa = k/(rho c)` [m²/s]. Valid for a
-//! contact that is small against the particle, smooth and dry, without the gas in the gap around it. Heat of friction
-//! and plastic flow is left out.
+//! contact that is small against the particle, smooth and dry, without the gas in the gap around it. A sphere that
+//! flattens plastically without piling up has up to 1.4 times Thornton's area. Heat of friction and of plastic flow is
+//! left out.
 
 use std::f64::consts::PI;
 

@@ -13,8 +13,8 @@ use nearwall::model::{WallCooling, WallHeat};
 use nearwall::{Impact, Model};
 
 use crate::calls::Calls;
-use crate::impacts::status_of;
 use crate::common::random::{EVERY_REGIME, random_cases, seed};
+use crate::impacts::status_of;
 
 /// Glass on glass, with heat of contact.
 const GLASS: &str = r#"
@@ -525,7 +525,8 @@ fn what_a_captured_particle_brings_by_hand() {
 #[test]
 fn heat_of_contact_is_that_of_the_rust_library() {
     let calls = Calls::load();
-    let (rust, model, plain) = (Model::from_toml("m", GLASS).unwrap(), calls.parse(GLASS), calls.parse(EVERY_REGIME));
+    let (rust, model, plain) =
+        (Model::from_toml("m", GLASS).unwrap(), calls.parse(GLASS), calls.parse(EVERY_REGIME));
     let give = |model, impact: &nw_impact| {
         let mut heat = -1.0;
         let status = unsafe { (calls.nw_contact_heat)(model, impact, &raw mut heat) };

@@ -281,8 +281,6 @@ case_user-boxes() {
     edited constant/surfaceFilmProperties 's/^surfaceFilmModel.*/surfaceFilmModel none;/'
     edited 0/alphat 's/alphatFilmWallFunction/compressible::alphatWallFunction/'
     rm -f 0/htcConv
-    merged_in 0/T 'boundaryField { wallFilm { type nearWallDepositTemperature; Ta 290; h 2000; thicknessLayers (0.003); kappaLayers (22);
-        value uniform 290; } }'
     merged_in constant/reactingCloud1Properties 'constantProperties { T0 350; }
 subModels { injectionModels { model1 { flowRateProfile constant 1; parcelsPerInjector 40000; Umag constant 20;
         positionAxis ( ((0.45 0.2 0.75) (0 0 -1)) ((0.55 0.5 0.75) (0 0 -1)) ); } }
@@ -293,7 +291,10 @@ subModels { injectionModels { model1 { flowRateProfile constant 1; parcelsPerInj
         contact_heat = true #}; memory { }"
     two="(1 2 1)" draws=yes
     user_time 5e-4 40
-    meshed blockMesh && meshed topoSet && meshed subsetMesh c0 -patch wallFilm -overwrite && user_runs
+    meshed blockMesh && meshed topoSet && meshed subsetMesh c0 -patch wallFilm -overwrite || return
+    merged_in 0/T 'boundaryField { wallFilm { type nearWallDepositTemperature; Ta 300; h 2000; thicknessLayers (0.003); kappaLayers (22);
+        value uniform 300; } }'
+    user_runs
 }
 
 # Drops between the walls and cyclic baffles of a filter
