@@ -151,21 +151,21 @@ case_bounced() {
     sed -i '/^\[\[effects\]\]/,$ d' constant/nearWall.toml
     sed -i 's/"pyrex"/"ash"\ncontact_heat = true/; s/^thermal_conductivity/heat_capacity = 1000\n&/' constant/nearWall.toml
     sed -i 's/T0 1100;/& Cp0 1000;/' constant/limestoneCloud1Properties
-    settings 0.05 0.02 startTime ascii
+    settings 0.06 0.02 startTime ascii
     solve bounced serial "$solver" || return
-    bounced_heat bounced/serial 0 0.05/lagrangian/limestoneCloud1/T 1e-9
+    bounced_heat bounced/serial 0 0.06/lagrangian/limestoneCloud1/T 1e-9
     expect_numbers bounced/count "$(last "$(folder limestoneCloud1)/floor.heat.dat" landed)" "$(last "$(folder limestoneCloud1)/floor.dat" rebounds)"
     heat_of 0 | grep -v lagging_J > heat
 
     rm -rf "$dir-restart"; mkdir "$dir-restart"; cp -r 0 0.04 constant system "$dir-restart"; cd "$dir-restart" || return
-    settings 0.05 0.02 latestTime ascii
-    solve bounced restart "$solver" && bounced_heat bounced/restart 0.04 0.05/lagrangian/limestoneCloud1/T 1e-9
+    settings 0.06 0.02 latestTime ascii
+    solve bounced restart "$solver" && bounced_heat bounced/restart 0.04 0.06/lagrangian/limestoneCloud1/T 1e-9
     rm -rf "$dir-2"; mkdir "$dir-2"; cp -r "$dir"/{0,constant,system} "$dir-2"; cd "$dir-2" || return
     ranks_are 2
     quiet decompose decomposePar
     solve bounced ranks mpirun -np 2 "$solver" -parallel || return
     quiet together reconstructPar -latestTime
-    bounced_heat bounced/ranks 0 0.05/lagrangian/limestoneCloud1/T 1e-9
+    bounced_heat bounced/ranks 0 0.06/lagrangian/limestoneCloud1/T 1e-9
 }
 
 # Ash that is solid below 1400 K, with a heat of fusion
