@@ -651,6 +651,16 @@ nw_status nw_deposit_heat(const struct nw_model *model,
                           const struct nw_wall_cooling *cooling,
                           struct nw_wall_heat *heat);
 
+// Computes the heat [J] that one particle of this impact gives to the wall while it touches it and rebounds; negative
+// for a colder particle. 0 where the model file does not ask for it (`contact_heat` of a wall), for a droplet, and on
+// melt. The particle's temperature falls by the heat over mass and heat capacity.
+//
+// # Safety
+// `model` is a loaded model; `impact` begins with its `struct_size`; `heat` can be written.
+nw_status nw_contact_heat(const struct nw_model *model,
+                          const struct nw_impact *impact,
+                          double *heat);
+
 // Computes the heat [J/kg] that a captured particle of this impact brings to the surface that it lands on: sensible
 // heat down to the temperature of that surface, and the heat of fusion where it was liquid and lands as a solid; less
 // that heat where it was solid and lands as melt. What lies on a wall has the temperature of the wall, so that this is

@@ -405,6 +405,11 @@ public:
         return nw_heat_brought(raw_, &impact, heat_capacity, &heat);
     }
 
+    // Heat [J] that one particle gives to the wall while it touches it and rebounds; no exceptions.
+    nw_status contact_heat(const nw_impact& impact, double& heat) const noexcept {
+        return nw_contact_heat(raw_, &impact, &heat);
+    }
+
     // Advances a deposit by a step of a `duration` [s] and sets what each process took from it; no exceptions.
     nw_status advance(const nw_deposit_surroundings& surroundings, double duration, nw_deposit& deposit,
                       nw_deposit_losses& losses) const noexcept {

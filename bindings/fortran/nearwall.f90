@@ -399,6 +399,14 @@ module nearwall
       integer(c_int32_t) :: nw_deposit_heat
     end function nw_deposit_heat
 
+    function nw_contact_heat(model, impact, heat) bind(c)
+      import
+      type(c_ptr), value :: model
+      type(nw_impact), intent(in) :: impact
+      real(c_double), intent(inout) :: heat
+      integer(c_int32_t) :: nw_contact_heat
+    end function nw_contact_heat
+
     function nw_heat_brought(model, impact, heat_capacity, heat) bind(c)
       import
       type(c_ptr), value :: model

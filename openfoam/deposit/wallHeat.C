@@ -123,6 +123,21 @@ void Foam::nearWall::wallHeat::addCaptured
 }
 
 
+void Foam::nearWall::wallHeat::addContact
+(
+    const impactEvent& e,
+    const scalar acceleration
+)
+{
+    if (place(e.patch) < 0) return;
+
+    const scalar area = mesh_.magSf().boundaryField()[e.patch][e.face];
+    enthalpy_.boundaryFieldRef()[e.patch][e.face] +=
+        acceleration*e.contactHeat/area;
+    sums_.add(place(e.patch), landed, 1);
+}
+
+
 void Foam::nearWall::wallHeat::beginStep(const scalar flow)
 {
     // Without a message between ranks

@@ -76,6 +76,14 @@ void Foam::nearWallInteraction<CloudType>::reportSetup() const
         Info<< "    nearWallInteraction: parcels have no temperature, "
             << particleTemperature_ << " K is taken (particleTemperature)"
             << endl;
+        for (const auto& line : nearWall::wallModelLines(coeffs(), mesh().time()))
+        {
+            if (line.find("contact_heat") == std::string::npos) continue;
+
+            Info<< "    nearWallInteraction, warning: the model's contact_heat is"
+                << " left out" << endl;
+            break;
+        }
     }
     if
     (
@@ -271,6 +279,7 @@ void Foam::nearWallInteraction<CloudType>::interact
     }
     else
     {
+        giveHeat(p, e);
         rebound(p, v, e, outcome.e_n, outcome.e_t, 1 - outcome.e_t);
         nearWall::addSpin(p, outcome.omega - e.impact.omega, v.axis());
     }
@@ -344,6 +353,23 @@ void Foam::nearWallInteraction<CloudType>::addToDeposit
     state.regime = regime;
     state.typeId = p.typeId();
     run_->deposit->add(p, state);
+}
+
+
+template<class CloudType>
+void Foam::nearWallInteraction<CloudType>::giveHeat
+(
+    parcelType& p,
+    impactEvent& e
+) const
+{
+    scalar heat = 0;
+    const bool hasHeat = e.heatCapacity > 0 && !isTrial_;
+    if (!hasHeat || e.model->contact_heat(e.impact, heat) != NW_OK) return;
+
+    e.contactHeat = e.particles*heat;
+    const scalar before = nearWall::temperature(p, particleTemperature_);
+    nearWall::setTemperature(p, before - heat/(p.mass()*e.heatCapacity));
 }
 
 

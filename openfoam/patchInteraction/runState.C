@@ -134,6 +134,7 @@ void Foam::nearWall::runState::add(const impactEvent& e)
     recorder_.add(e);
     if (fields_) fields_->add(e);
     if (memory && e.stuckByModel()) memory->addCaptured(e);
+    if (memory && e.contactHeat != 0) memory->addContactHeat(e);
 }
 
 

@@ -121,6 +121,7 @@ const std::vector<column> columns
     {"stick_mass_conversion_0.9_kg", inConversionClass(9)},
     {"capture_by_particles", nullptr, "stick_particles", "hit_particles"},
     {"capture_by_mass", nullptr, "stick_mass_kg", "hit_mass_kg"},
+    {"contact_heat_J", [](E e) { return e.contactHeat; }},
     {"eroded_volume_m3", [](E e) { return e.eroded; }},
     {"outside_range", [](E e) { return scalar(e.outsideRange); }}
 };

@@ -231,6 +231,35 @@ pub unsafe extern "C" fn nw_deposit_heat(
     guarded_status(conduct)
 }
 
+/// Computes the heat [J] that one particle of this impact gives to the wall while it touches it and rebounds; negative
+/// for a colder particle. 0 where the model file does not ask for it (`contact_heat` of a wall), for a droplet, and on
+/// melt. The particle's temperature falls by the heat over mass and heat capacity.
+///
+/// # Safety
+/// `model` is a loaded model; `impact` begins with its `struct_size`; `heat` can be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn nw_contact_heat(
+    model: *const nw_model,
+    impact: *const nw_impact,
+    heat: *mut f64,
+) -> nw_status {
+    let touch = || {
+        // SAFETY: the caller's promises.
+        let (model, impact) = unsafe { (reader(model)?, sized(impact)?) };
+        if heat.is_null() {
+            return Err(NW_NULL_POINTER);
+        }
+        let found = model.inner().contact_heat(impact.wall as usize, &impact.to_impact())?;
+        if !found.is_finite() {
+            return Err(NW_BAD_STATE);
+        }
+        // SAFETY: not null, and writable by the caller's promise.
+        unsafe { heat.write_unaligned(found) };
+        Ok(())
+    };
+    guarded_status(touch)
+}
+
 /// Computes the heat [J/kg] that a captured particle of this impact brings to the surface that it lands on: sensible
 /// heat down to the temperature of that surface, and the heat of fusion where it was liquid and lands as a solid; less
 /// that heat where it was solid and lands as melt. What lies on a wall has the temperature of the wall, so that this is

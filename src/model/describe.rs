@@ -147,6 +147,9 @@ impl Wall {
         for (what, value, unit) in covering.into_iter().filter(|(_, value, _)| *value > 0.0) {
             text += &format!(", {what} {value}{unit}");
         }
+        if self.contact_heat {
+            text += ", exchanges heat with what bounces";
+        }
         if let Some(erosion) = &self.erosion {
             text += &format!(", eroded by {}", erosion.describe());
         }

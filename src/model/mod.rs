@@ -9,6 +9,7 @@
 
 mod beyond;
 pub mod block;
+mod contact_heat;
 mod deposit;
 mod describe;
 mod displaced;

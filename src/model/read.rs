@@ -213,6 +213,9 @@ impl WallReader<'_> {
         let coverage = section.number_within("coverage", 0.0, 1.0)?.unwrap_or(0.0);
         let processes = WallProcesses::read(section)?;
         let own_erosion = optional(section, "erosion", erosion::read)?;
+        let powder = self.library.named_by(section, "powder")?;
+        let met = [Some(&material), slag.as_ref(), powder.as_ref()];
+        let contact_heat = self.read_contact_heat(section, met)?;
         let thickness = |key: &str| Ok(section.quantity(key, &LAYER_THICKNESS)?.unwrap_or(0.0));
         Ok(Wall {
             name: name.to_owned(),
@@ -221,7 +224,7 @@ impl WallReader<'_> {
             slag,
             melt,
             slag_solid_below: None,
-            powder: self.library.named_by(section, "powder")?,
+            powder,
             covering: Covering {
                 layer_thickness: thickness("layer_thickness")?,
                 film_thickness: thickness("film_thickness")?,
@@ -229,9 +232,32 @@ impl WallReader<'_> {
             },
             erosion: own_erosion.or_else(|| self.erosion.clone()),
             processes,
+            contact_heat,
             adhesion: self.adhesion,
             prepared,
         })
+    }
+
+    /// Whether particles exchange heat with a wall while they touch it, for which they and all that they may `met`
+    /// there need thermal properties.
+    fn read_contact_heat(
+        &self,
+        section: &Section<'_>,
+        met: [Option<&Material>; 3],
+    ) -> Result<bool, InputError> {
+        let key = "contact_heat";
+        if !section.boolean(key)?.unwrap_or(false) {
+            return Ok(false);
+        }
+        let solids = [Some(self.particle.material()), self.particle.ash()];
+        for material in solids.into_iter().chain(met).flatten() {
+            for property in ["heat_capacity", "thermal_conductivity"] {
+                if material.property(property).is_none() {
+                    return Err(section.fault(key, format!("`{}` has no {property}", material.name())));
+                }
+            }
+        }
+        Ok(true)
     }
 
     /// The stickiness of the slag of a wall.

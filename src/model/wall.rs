@@ -31,6 +31,8 @@ pub struct Wall {
     pub(super) erosion: Option<Arc<dyn Erosion>>,
     /// What changes a deposit on it over time.
     pub(super) processes: WallProcesses,
+    /// Whether particles that rebound exchange heat with it while they touch it.
+    pub(super) contact_heat: bool,
     pub(super) adhesion: ContactSettings,
     /// The contact with the particle, where no property depends on temperature.
     pub(super) prepared: Option<Contact>,
@@ -120,8 +122,22 @@ impl Wall {
         }
     }
 
-    /// The contact with what is met at the temperatures of the impact: powder and frozen slag have that
-    /// of the surface, the wall's material its own. `frozen` is the slag where the wall lies under it.
+    /// What a dry particle meets at a place, and its temperature [K]: powder and frozen slag have that of the
+    /// surface, the wall's material its own. `frozen` is the slag where the wall lies under it.
+    pub(super) fn solid_met<'w>(
+        &'w self,
+        impact: &Impact,
+        place: WallPlace,
+        frozen: Option<&'w Material>,
+    ) -> (&'w Material, f64) {
+        match (place, &self.powder, frozen) {
+            (WallPlace::Covered, Some(powder), _) => (powder, impact.wall_temperature),
+            (WallPlace::Bare | WallPlace::Anywhere, _, Some(slag)) => (slag, impact.wall_temperature),
+            _ => (&self.material, impact.own_wall_temperature()),
+        }
+    }
+
+    /// The contact with what is met ([`Self::solid_met`]) at the temperatures of the impact.
     pub(super) fn contact(
         &self,
         particle: &Particle,
@@ -129,17 +145,13 @@ impl Wall {
         place: WallPlace,
         frozen: Option<&Material>,
     ) -> Result<Contact, ImpactError> {
-        let (partner, temperature) = match (place, &self.powder, frozen) {
-            (WallPlace::Covered, Some(powder), _) => (powder, impact.wall_temperature),
-            (WallPlace::Bare | WallPlace::Anywhere, _, Some(slag)) => (slag, impact.wall_temperature),
-            _ => {
-                if let Some(contact) = self.prepared {
-                    let given = impact.particle_density;
-                    return Ok(if given > 0.0 { Contact { density: given, ..contact } } else { contact });
-                }
-                (&self.material, impact.own_wall_temperature())
-            }
-        };
+        let (partner, temperature) = self.solid_met(impact, place, frozen);
+        if let Some(contact) = self.prepared
+            && std::ptr::eq(partner, &raw const self.material)
+        {
+            let given = impact.particle_density;
+            return Ok(if given > 0.0 { Contact { density: given, ..contact } } else { contact });
+        }
         let wall = partner.mechanical(temperature)?;
         let ContactSettings { yield_ratio, work, .. } = self.adhesion;
         particle.contact(impact, &wall, yield_ratio, work)

@@ -1,4 +1,4 @@
-//! How long a dry, elastic–perfectly plastic sphere touches a plane.
+//! How long a dry, elastic–perfectly plastic sphere touches a plane, and over which area.
 //!
 //! The motion `m d²delta/dt² = -F(delta)` of the contact of Thornton & Ning (Powder Technology 99 (1998) 154)
 //! without adhesion, `m = (4/3) pi rho R³`, in three parts that add:
@@ -26,10 +26,24 @@ use statrs::function::beta::{beta, beta_reg};
 
 use super::{Contact, yield_velocity};
 
+/// How long a particle touches a plane, and over which area.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Touch {
+    /// Time of contact [s]; infinite without speed.
+    pub duration: f64,
+    /// Largest radius `a` of the area of contact [m].
+    pub radius: f64,
+}
+
 /// Time of contact [s] of a particle of `diameter` [m] at `normal_speed` [m/s]; infinite without speed.
 pub fn contact_time(contact: &Contact, diameter: f64, normal_speed: f64) -> f64 {
+    touch(contact, diameter, normal_speed).duration
+}
+
+/// The touch of a particle of `diameter` [m] at `normal_speed` [m/s].
+pub fn touch(contact: &Contact, diameter: f64, normal_speed: f64) -> Touch {
     if normal_speed <= 0.0 {
-        return f64::INFINITY;
+        return Touch { duration: f64::INFINITY, radius: 0.0 };
     }
     let (radius, modulus) = (0.5 * diameter, contact.reduced_modulus);
     let mass = PI / 6.0 * contact.density * diameter.powi(3);
@@ -38,7 +52,7 @@ pub fn contact_time(contact: &Contact, diameter: f64, normal_speed: f64) -> f64 
     let quarter = 0.4 * beta(0.4, 0.5);
     let yielding = yield_velocity(contact);
     if normal_speed <= yielding {
-        return 2.0 * quarter * depth / normal_speed;
+        return Touch { duration: 2.0 * quarter * depth / normal_speed, radius: (radius * depth).sqrt() };
     }
     let pressure = contact.limiting_pressure();
     let elastic = quarter * beta_reg(0.4, 0.5, (yielding / normal_speed).powi(2)) * depth / normal_speed;
@@ -50,9 +64,10 @@ pub fn contact_time(contact: &Contact, diameter: f64, normal_speed: f64) -> f64 
     let plastic = swing.atan2(from) / frequency;
     let reach = from.hypot(swing);
     let (force, approach) = (stiffness * reach, at_yield / 3.0 + reach);
-    let recovered = 0.75 * force / (modulus * (radius * approach).sqrt());
+    let widest = (radius * approach).sqrt();
+    let recovered = 0.75 * force / (modulus * widest);
     let rebound = (0.8 * force * recovered / mass).sqrt();
-    elastic + plastic + quarter * recovered / rebound
+    Touch { duration: elastic + plastic + quarter * recovered / rebound, radius: widest }
 }
 
 #[cfg(test)]

@@ -9,6 +9,7 @@ mod bons;
 mod brach_dunn;
 mod constant;
 mod contact;
+mod contact_heat;
 mod contact_time;
 mod el_batsh;
 pub(crate) mod grant_tabakoff;
@@ -19,7 +20,8 @@ mod whitaker_bons;
 
 pub(crate) use bons::ORIGIN as BONS;
 pub use contact::{Contact, LARGEST_CONTACT_RADIUS, reduced_modulus, stiffness_ratio, work_of_adhesion};
-pub use contact_time::contact_time;
+pub use contact_heat::{HalfSpace, contact_heat};
+pub use contact_time::{Touch, contact_time, touch};
 pub use thornton_ning::{
     ThorntonNingConstants, adhesive_velocity, plastic_term, restitution, sticking_velocity, yield_velocity,
 };

@@ -14,6 +14,26 @@ use nearwall::{Impact, Model};
 
 use crate::calls::Calls;
 use crate::common::random::{EVERY_REGIME, random_cases, seed};
+use crate::impacts::status_of;
+
+/// Glass on glass, with heat of contact.
+const GLASS: &str = r#"
+[particle]
+material = "glass"
+[walls.default]
+material = "glass"
+contact_heat = true
+[normal]
+model = "thornton-ning"
+yield_ratio = 0.7
+[tangential]
+model = "constant"
+e_t = 0.76
+[materials.glass]
+like = "pyrex"
+heat_capacity = 800
+thermal_conductivity = 1
+"#;
 
 /// One wall after many particles, by both libraries, to the last bit.
 #[test]
@@ -499,6 +519,33 @@ fn what_a_captured_particle_brings_by_hand() {
     let status = unsafe { (calls.nw_heat_brought)(model, &raw const hot, 0.0, null_mut()) };
     assert_eq!(status, NW_NULL_POINTER);
     calls.free(model);
+}
+
+/// Heat of contact by both libraries, to the last bit; 0 where no wall asks for it.
+#[test]
+fn heat_of_contact_is_that_of_the_rust_library() {
+    let calls = Calls::load();
+    let (rust, model, plain) =
+        (Model::from_toml("m", GLASS).unwrap(), calls.parse(GLASS), calls.parse(EVERY_REGIME));
+    let give = |model, impact: &nw_impact| {
+        let mut heat = -1.0;
+        let status = unsafe { (calls.nw_contact_heat)(model, impact, &raw mut heat) };
+        if status == NW_OK { Ok(heat) } else { Err((status, heat)) }
+    };
+    let hot = nw_impact { v_n: 1.0, T_p: 320.0, T_w: 300.0, ..nw_impact::default() };
+    assert!(give(model, &hot).unwrap() > 0.0);
+    for (_, impact, _) in random_cases(seed(), 100) {
+        let raw = nw_impact::from(&impact);
+        let expected = rust.contact_heat(0, &impact).map_err(|error| (status_of(&error), -1.0));
+        assert_eq!(give(model, &nw_impact { wall: 0, ..raw }), expected);
+    }
+    assert_eq!(give(plain, &hot), Ok(0.0));
+    assert_eq!(give(model, &nw_impact { wall: 99, ..hot }), Err((NW_UNKNOWN_WALL, -1.0)));
+    assert_eq!(give(model, &nw_impact { T_p: 0.0, ..hot }), Err((NW_BAD_STATE, -1.0)));
+    let status = unsafe { (calls.nw_contact_heat)(model, &raw const hot, null_mut()) };
+    assert_eq!(status, NW_NULL_POINTER);
+    calls.free(model);
+    calls.free(plain);
 }
 
 /// Without radiation the resistances are in series: 1/2000, 1e-3, the deposit and 1/100.

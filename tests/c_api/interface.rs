@@ -26,6 +26,7 @@ macro_rules! for_each_function {
             nw_wall_cooling_init: unsafe extern "C" fn(*mut nw_wall_cooling) -> i32,
             nw_wall_heat_init: unsafe extern "C" fn(*mut nw_wall_heat) -> i32,
             nw_deposit_heat: unsafe extern "C" fn(*const nw_model, *const nw_deposit, f64, *const nw_wall_cooling, *mut nw_wall_heat) -> i32,
+            nw_contact_heat: unsafe extern "C" fn(*const nw_model, *const nw_impact, *mut f64) -> i32,
             nw_heat_brought: unsafe extern "C" fn(*const nw_model, *const nw_impact, f64, *mut f64) -> i32,
             nw_deposit_init: unsafe extern "C" fn(*mut nw_deposit) -> i32,
             nw_deposit_initial: unsafe extern "C" fn(*const nw_model, f64, *mut nw_deposit) -> i32,

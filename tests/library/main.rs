@@ -1,5 +1,5 @@
 //! The library: the golden table, independent oracles, effects, fitted curves, groups, listed laws,
-//! measured oblique impacts, droplets, slag viscosity, the fuzzer's corpus, the links in the
+//! measured oblique impacts, heat of contact, droplets, slag viscosity, the fuzzer's corpus, the links in the
 //! documents, and the C header with everything that is generated from it.
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "a test may fail")]
 #![allow(unsafe_code, reason = "the C interface is compared and fuzzed too")]
@@ -11,6 +11,7 @@ mod common;
 mod ash_fusion;
 mod capture;
 mod char_on_slag;
+mod contact_heat;
 mod contact_integration;
 mod docs;
 mod drop_bounce;

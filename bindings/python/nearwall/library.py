@@ -166,6 +166,7 @@ FUNCTIONS = {
     "nw_wall_cooling_init": (c_int32, [POINTER(nw_wall_cooling)]),
     "nw_wall_heat_init": (c_int32, [POINTER(nw_wall_heat)]),
     "nw_deposit_heat": (c_int32, [c_void_p, POINTER(nw_deposit), c_double, POINTER(nw_wall_cooling), POINTER(nw_wall_heat)]),
+    "nw_contact_heat": (c_int32, [c_void_p, POINTER(nw_impact), POINTER(c_double)]),
     "nw_heat_brought": (c_int32, [c_void_p, POINTER(nw_impact), c_double, POINTER(c_double)]),
     "nw_deposit_init": (c_int32, [POINTER(nw_deposit)]),
     "nw_deposit_initial": (c_int32, [c_void_p, c_double, POINTER(nw_deposit)]),
@@ -658,6 +659,13 @@ class Model:
         `heat_capacity` [J/(kg K)], or 0 for that of its material; inputs are numbers, named as in `resolve`."""
         impact, found = self._impact(wall, {"T_w": T_w, **inputs}), c_double()
         _check(_library.nw_heat_brought(self._handle, byref(impact), heat_capacity, byref(found)))
+        return found.value
+
+    def contact_heat(self, v_n: float, wall: Wall = 0, **inputs: Union[float, str]) -> float:
+        """Heat [J] that one particle gives to the wall while it touches it and rebounds, where the wall's `contact_heat`
+        asks for it."""
+        impact, found = self._impact(wall, {"v_n": v_n, **inputs}), c_double()
+        _check(_library.nw_contact_heat(self._handle, byref(impact), byref(found)))
         return found.value
 
     def film_velocity(self, deposit: Deposit, T_w: float, gravity_along: float, heat_flux: Optional[float] = None) -> float:

@@ -19,7 +19,7 @@ pub struct KeptWall {
 impl KeptWall {
     pub fn call(&mut self, bytes: &mut Bytes<'_>, model: *const nw_model) {
         let model = if bytes.byte() == 0 { null() } else { model };
-        match bytes.byte() % 10 {
+        match bytes.byte() % 11 {
             0 => begin(bytes),
             1 => self.start(bytes, model),
             2 => self.add_captured(bytes, model),
@@ -29,6 +29,7 @@ impl KeptWall {
             7 => self.advance(bytes, model),
             8 => ask(bytes, model),
             9 => bring(bytes, model),
+            10 => touch(bytes, model),
             _ => self.flow(bytes, model),
         }
     }
@@ -400,6 +401,25 @@ fn bring(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let to = buffer.start_or_null(bytes);
     // SAFETY: each is null or what it should be.
     let status = unsafe { nw_heat_brought(model, from, capacity, to) };
+    known(status);
+    asked.assert_guard_intact();
+    buffer.assert_guard_intact();
+    if status == NW_OK {
+        assert!(buffer.f64().is_finite());
+    } else {
+        buffer.assert_untouched();
+    }
+}
+
+/// Heat of a particle that rebounds.
+fn touch(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    let given = impact(bytes);
+    let mut asked = GuardedBuffer::holding(bytes, given);
+    let from: *const nw_impact = asked.start_or_null(bytes);
+    let mut buffer = GuardedBuffer::new(bytes, 8);
+    let to = buffer.start_or_null(bytes);
+    // SAFETY: each is null or what it should be.
+    let status = unsafe { nw_contact_heat(model, from, to) };
     known(status);
     asked.assert_guard_intact();
     buffer.assert_guard_intact();

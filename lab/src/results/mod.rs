@@ -64,6 +64,8 @@ pub struct WallTotals {
     pub outside_range: Option<u64>,
     /// Volume of wall that impacts removed [m³].
     pub eroded: Option<f64>,
+    /// Heat that particles gave to the wall while they touched it and rebounded [J].
+    pub contact_heat: Option<f64>,
     /// How long particles stay near the wall, where the source follows them there.
     pub near_wall: Option<NearWall>,
 }

@@ -239,7 +239,8 @@ impl<'a> Tracker<'a> {
         let outcome = model.resolve(wall, &impact, random)?;
         let (time, mass) = (self.time, self.mass());
         let (eroded, density) = (model.erosion(wall, &impact, mass)?, impact.particle_density);
-        self.hits.push(Hit { time, surface: index, position, impact, outcome, density, eroded, mass });
+        let heat = if outcome.stuck { 0.0 } else { self.give_heat(&contact)? };
+        self.hits.push(Hit { time, surface: index, position, impact, outcome, density, eroded, mass, heat });
         if outcome.stuck {
             return Ok(Some(Fate::Stuck(index)));
         }
@@ -276,6 +277,20 @@ impl<'a> Tracker<'a> {
             ..Impact::default()
         };
         Some(WallContact { frame, wall: self.injection.wall(*wall), position: here, impact })
+    }
+
+    /// Cools the particle by the heat that it gives to the wall while it touches it; returns that of all real particles
+    /// that it represents [J].
+    ///
+    /// # Errors
+    /// As [`Model::resolve`].
+    pub fn give_heat(&mut self, contact: &WallContact) -> Result<f64, ImpactError> {
+        let Some(heat_capacity) = self.motion.body.heat_capacity else { return Ok(0.0) };
+        let model = self.case.model_of(self.injection);
+        let heat = model.contact_heat(contact.wall, &contact.impact)?;
+        let mass = self.motion.body.mass_at(self.state[CONVERSION]);
+        self.state[TEMPERATURE] -= heat / (mass * heat_capacity);
+        Ok(self.weight * heat)
     }
 
     /// Sets the velocity after a rebound; false for a particle that comes to rest on the wall.

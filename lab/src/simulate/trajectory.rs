@@ -40,6 +40,8 @@ pub struct Hit {
     pub eroded: f64,
     /// Mass of all real particles that this one represents [kg].
     pub mass: f64,
+    /// Heat that they gave to the wall while they touched it and rebounded [J].
+    pub heat: f64,
 }
 
 /// The hits of a particle and its end.

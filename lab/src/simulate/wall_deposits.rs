@@ -137,15 +137,25 @@ impl WallDeposits {
         model.apply_deposit(wall, &bin.deposit, self.settings.voidage, &impact)
     }
 
-    /// Adds a particle that was captured in this step.
+    /// The bin of a surface near a point; `None` at an exit.
+    fn bin_near(&mut self, case: &Case, surface: usize, position: &Vector3<f64>) -> Option<&mut Bin> {
+        let bins = self.walls.get_mut(surface)?.as_mut()?;
+        let index = bin_at(bins, case.surfaces[surface].shape.coordinate(position));
+        bins.get_mut(index)
+    }
+
+    /// Adds a particle of this step: the heat of its rebounds, and itself where it was captured.
     pub(super) fn collect(&mut self, case: &Case, trajectory: &Trajectory) -> Result<(), SimulationError> {
+        for hit in trajectory.hits.iter().filter(|hit| hit.heat != 0.0) {
+            if let Some(bin) = self.bin_near(case, hit.surface, &hit.position) {
+                bin.step.heat += hit.heat / bin.history.area;
+            }
+        }
         let (Fate::Stuck(surface), Some(hit)) = (&trajectory.fate, trajectory.hits.last()) else {
             return Ok(());
         };
         let SurfaceKind::Wall { model: wall, .. } = &case.surfaces[*surface].kind else { return Ok(()) };
-        let Some(bins) = self.walls.get_mut(*surface).and_then(Option::as_mut) else { return Ok(()) };
-        let index = bin_at(bins, case.surfaces[*surface].shape.coordinate(&hit.position));
-        let Some(bin) = bins.get_mut(index) else { return Ok(()) };
+        let Some(bin) = self.bin_near(case, *surface, &hit.position) else { return Ok(()) };
         let injection = &case.injections[trajectory.injection];
         let (model, wall) = (case.model_of(injection), injection.wall(*wall));
         let mass = hit.mass / bin.history.area;

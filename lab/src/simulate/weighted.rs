@@ -265,6 +265,7 @@ impl<'a> Node<'a> {
     /// The next contact after a rebound with this outcome.
     fn after_rebound(&self, outcome: &Outcome) -> Option<Self> {
         let mut tracker = self.tracker.clone();
+        tracker.give_heat(&self.contact).ok()?;
         let flies = tracker.rebound(&self.contact, outcome);
         if flies { Self::after_flight(tracker).ok().flatten() } else { None }
     }

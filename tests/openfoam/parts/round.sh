@@ -127,6 +127,47 @@ landed_interval() {
     then ok landed/interval-same; else bad landed/interval-same "$(brought "$(folder limestoneCloud1 0.028)") J, $said J"; fi
 }
 
+# 400 hot parcels bounce in the box and cool by what they give to its cooled walls while they touch them: what they lost, by their
+# temperatures at the end, is what the tables say, and waits for the surface or is in its balance
+bounced_heat() { # name start-folder temperatures tolerance
+    local f lost said patch
+    f="$(folder limestoneCloud1 "$2")"
+    closes "$1/balance" "$f"/*.heat.dat
+    lost="$(values "$3" | awk '{ sum += 2.5e-5/400*1000*(1100 - $1); n++ } END { printf "%.15g", sum; exit n != 400 }')" \
+        || bad "$1/parcels" "not 400 in $3"
+    said="$(for patch in floor lid sides; do last "$f/$patch.dat" contact_heat_J; done | awk '{ sum += $1 } END { printf "%.15g", sum }')"
+    if awk -v q="$lost" 'BEGIN { exit !(q > 0) }' && near "$lost" "$said" "$4"
+    then ok "$1/lost ($said J)"; else bad "$1/lost" "$said J, the parcels lost $lost J"; fi
+    for patch in floor lid sides; do
+        lost="$(last "$f/$patch.dat" contact_heat_J)"
+        said="$(awk -v a="$(last "$f/$patch.heat.dat" particles_J)" -v b="$(last "$f/$patch.heat.dat" waiting_J)" 'BEGIN { printf "%.15g", a + b }')"
+        if near "${lost:-0}" "$said" 1e-9; then ok "$1/$patch ($said J)"; else bad "$1/$patch" "$said J, contact heat $lost J"; fi
+    done
+}
+
+case_bounced() {
+    local dir="$work/bounced"
+    rain "$dir" 1100 || return
+    sed -i '/^\[\[effects\]\]/,$ d' constant/nearWall.toml
+    sed -i 's/"pyrex"/"ash"\ncontact_heat = true/; s/^thermal_conductivity/heat_capacity = 1000\n&/' constant/nearWall.toml
+    sed -i 's/T0 1100;/& Cp0 1000;/' constant/limestoneCloud1Properties
+    settings 0.06 0.02 startTime ascii
+    solve bounced serial "$solver" || return
+    bounced_heat bounced/serial 0 0.06/lagrangian/limestoneCloud1/T 1e-9
+    expect_numbers bounced/count "$(last "$(folder limestoneCloud1)/floor.heat.dat" landed)" "$(last "$(folder limestoneCloud1)/floor.dat" rebounds)"
+    heat_of 0 | grep -v lagging_J > heat
+
+    rm -rf "$dir-restart"; mkdir "$dir-restart"; cp -r 0 0.04 constant system "$dir-restart"; cd "$dir-restart" || return
+    settings 0.06 0.02 latestTime ascii
+    solve bounced restart "$solver" && bounced_heat bounced/restart 0.04 0.06/lagrangian/limestoneCloud1/T 1e-9
+    rm -rf "$dir-2"; mkdir "$dir-2"; cp -r "$dir"/{0,constant,system} "$dir-2"; cd "$dir-2" || return
+    ranks_are 2
+    quiet decompose decomposePar
+    solve bounced ranks mpirun -np 2 "$solver" -parallel || return
+    quiet together reconstructPar -latestTime
+    bounced_heat bounced/ranks 0 0.06/lagrangian/limestoneCloud1/T 1e-9
+}
+
 # Ash that is solid below 1400 K, with a heat of fusion
 molten_model() {
     sed -i 's/^viscosity = .*/critical_viscosity_temperature = 1400\nviscosity = 100\nheat_of_fusion = 2e5/' constant/nearWall.toml

@@ -273,6 +273,30 @@ case_user-cylinder() {
     meshed blockMesh && meshed topoSet && meshed extrudeToRegionMesh -overwrite && user_runs
 }
 
+# Four boxes that water cools, in a rain of drops that bounce from them and warm them while they touch
+case_user-boxes() {
+    offers subsetMesh || return
+    user_case boxes reactingParcelFoam/hotBoxes || return
+    edited system/blockMeshDict 's/\(80 80 120\)/(20 20 30)/'
+    edited constant/surfaceFilmProperties 's/^surfaceFilmModel.*/surfaceFilmModel none;/'
+    edited 0/alphat 's/alphatFilmWallFunction/compressible::alphatWallFunction/'
+    rm -f 0/htcConv
+    merged_in constant/reactingCloud1Properties 'constantProperties { T0 350; }
+subModels { injectionModels { model1 { flowRateProfile constant 1; parcelsPerInjector 40000; Umag constant 20;
+        positionAxis ( ((0.45 0.2 0.75) (0 0 -1)) ((0.55 0.5 0.75) (0 0 -1)) ); } }
+    surfaceFilmModel none; heatTransferModel RanzMarshall; RanzMarshallCoeffs { BirdCorrection false; } }'
+    user_cloud reactingCloud1 "model #{ $dry_ash
+        [walls.wallFilm]
+        material = \"fly-ash\"
+        contact_heat = true #}; memory { }"
+    two="(1 2 1)" draws=yes
+    user_time 5e-4 40
+    meshed blockMesh && meshed topoSet && meshed subsetMesh c0 -patch wallFilm -overwrite || return
+    merged_in 0/T 'boundaryField { wallFilm { type nearWallDepositTemperature; Ta 300; h 2000; thicknessLayers (0.003); kappaLayers (22);
+        value uniform 300; } }'
+    user_runs
+}
+
 # Drops between the walls and cyclic baffles of a filter
 case_user-filter() {
     offers createBaffles || return

@@ -54,6 +54,10 @@ pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
                 let eroded = c.totals(run, wall)?.eroded.filter(|volume| *volume > 0.0)?;
                 Some(format!("{eroded:.3e}"))
             }),
+            ("heat from rebounds [J]", |c, run, wall| {
+                let heat = c.totals(run, wall)?.contact_heat.filter(|heat| *heat != 0.0)?;
+                Some(format!("{heat:.3e}"))
+            }),
             ("outside validity", |c, run, wall| {
                 let totals = c.totals(run, wall)?;
                 Some(percent(share(totals.outside_range? as f64, totals.hits?.count as f64)))

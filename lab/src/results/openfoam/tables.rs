@@ -99,6 +99,7 @@ fn wall_totals(row: &TableRow<'_>) -> Option<(f64, WallTotals)> {
         e_n: moments("rebounds", "e_n_sum", "e_n2_sum").unwrap_or_default(),
         outside_range: row.number("outside_range").map(|count| count as u64),
         eroded: row.number("eroded_volume_m3"),
+        contact_heat: row.number("contact_heat_J"),
         ..WallTotals::default()
     };
     Some((row.number(TIME)?, totals))

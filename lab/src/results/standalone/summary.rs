@@ -225,6 +225,7 @@ impl Serialize for WallSummary<'_> {
         object.serialize_entry("regimes", &regimes.collect::<Vec<_>>())?;
         object.serialize_entry("outside_range", &wall.outside_range.unwrap_or(0))?;
         object.serialize_entry("eroded_volume", &wall.eroded.unwrap_or(0.0))?;
+        object.serialize_entry("contact_heat", &wall.contact_heat.unwrap_or(0.0))?;
         object.serialize_entry("near_wall", &wall.near_wall.as_ref().map(NearWallSummary::new))?;
         object.end()
     }

@@ -27,6 +27,7 @@ impl WallTotals {
             restitutions: [vec![0; RESTITUTION_BINS], vec![0; RESTITUTION_BINS]],
             outside_range: Some(0),
             eroded: Some(0.0),
+            contact_heat: Some(0.0),
             ..Self::default()
         }
     }
@@ -41,6 +42,7 @@ impl WallTotals {
         self.angle.add(hit.impact.angle_from_surface().to_degrees());
         *self.outside_range.get_or_insert_default() += u64::from(outcome.outside_range);
         *self.eroded.get_or_insert_default() += hit.eroded;
+        *self.contact_heat.get_or_insert_default() += hit.heat;
         if first {
             let [hits, captured] = self.first_hits.get_or_insert_default();
             *hits += 1;
