@@ -492,7 +492,7 @@ mod tests {
     #[test]
     fn every_built_in_number_names_unit_range_and_source() {
         let library = Library::built_in().unwrap();
-        assert!(library.names().len() >= 26);
+        assert!(library.names().len() >= 27);
         for name in library.names() {
             let material = library.get(name).unwrap();
             assert!(material.about().is_some(), "{name}");
@@ -510,7 +510,7 @@ mod tests {
     #[test]
     fn deposits_and_walls_have_thermal_properties() {
         let library = Library::built_in().unwrap();
-        for name in ["fly-ash", "coal-slag", "refractory", "stainless-steel"] {
+        for name in ["fly-ash", "coal-slag", "refractory", "stainless-steel", "alloy-800h"] {
             let material = library.get(name).unwrap();
             for temperature in [250.0, 900.0, 1600.0, 2500.0] {
                 let capacity = material.heat_capacity_near(temperature).unwrap();
