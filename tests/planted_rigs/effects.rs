@@ -69,6 +69,7 @@ fn source(system: System, spread: bool) -> Source {
         layer: 0.0,
         gas_speed: 0.0,
         gas_temperature: 300.0,
+        offset: [0.0; 2],
     };
     if spread {
         source.speed = State::normal(speed, 0.1 * speed, (0.02 * speed, 20.0 * speed));
@@ -83,7 +84,7 @@ fn source(system: System, spread: bool) -> Source {
 pub fn lab(system: System, law: Tangential, rng: &mut SetRng) -> Lab {
     let world = || World { contact: system.contact(), tangential: law, plants: vec![] };
     Lab {
-        rig: Rig { shape: Shape::Shot, time_limit: 10.0 },
+        rig: Rig::new(Shape::Shot, 10.0),
         system,
         law,
         constant_e_n: None,
@@ -136,7 +137,7 @@ impl Lab {
     /// Lets some rigs have more than one impact.
     fn again(&mut self, rng: &mut SetRng) {
         match rng.below(4) {
-            0 => self.rig = Rig { shape: Shape::Bounce, time_limit: rounded(rng.log_uniform((0.02, 0.3))) },
+            0 => self.rig = Rig::new(Shape::Bounce, rounded(rng.log_uniform((0.02, 0.3)))),
             1 => self.rig.shape = Shape::Channel,
             _ => {}
         }

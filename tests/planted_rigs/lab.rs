@@ -117,6 +117,12 @@ impl Lab {
         particles.iter().map(|particle| self.rig.follow(particle, world)).collect()
     }
 
+    /// The lives of particles in the rig as it really was.
+    fn true_tracks(&self, particles: &[Particle]) -> Vec<Track> {
+        let rig = self.case_error.map_or(self.rig, |error| error.rig(self.rig));
+        particles.iter().map(|particle| rig.follow(particle, &self.truth)).collect()
+    }
+
     /// Every reading's value.
     pub fn values(&self, tracks: &[Track]) -> Vec<f64> {
         self.readings.iter().map(|(observable, wall)| observable.of(tracks, *wall)).collect()
@@ -133,7 +139,7 @@ impl Lab {
         let mut source = self.source_at(settings);
         error.apply(&mut source);
         let particles: Vec<Particle> = (0..count).map(|_| source.draw(&mut same)).collect();
-        [base, self.values(&self.tracks(&particles, &self.truth))]
+        [base, self.values(&self.true_tracks(&particles))]
     }
 
     /// Square of the true effect in deviations, if every reading rested on one particle; `None` if one is not defined.

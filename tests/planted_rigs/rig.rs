@@ -36,6 +36,8 @@ pub struct Rig {
     pub shape: Shape,
     /// s.
     pub time_limit: f64,
+    /// Whether particles have a weight.
+    pub falls: bool,
 }
 
 /// An impact of a particle.
@@ -77,7 +79,12 @@ enum Goal {
 
 impl Rig {
     fn gravity(&self) -> f64 {
-        if self.shape == Shape::Bounce { 9.81 } else { 0.0 }
+        if self.falls { 9.81 } else { 0.0 }
+    }
+
+    /// A rig of a shape whose rebounds fall back if that is one of the shape.
+    pub fn new(shape: Shape, time_limit: f64) -> Self {
+        Self { shape, time_limit, falls: shape == Shape::Bounce }
     }
 
     /// Whether each particle hits once, so that its chances need no draws.
@@ -98,7 +105,9 @@ impl Rig {
 
     /// Distance of the first impact from the middle, without gravity.
     pub fn first_place(particle: &Particle) -> f64 {
-        (START - particle.inputs.d / 2.0) / particle.angle.tan()
+        let [aside, above] = particle.offset;
+        let along = (START + above - particle.inputs.d / 2.0) / particle.angle.tan();
+        (aside + along * particle.azimuth.cos()).hypot(along * particle.azimuth.sin())
     }
 
     /// Follows a particle.
@@ -119,7 +128,8 @@ impl Rig {
         let radius = particle.inputs.d / 2.0;
         let (sine, cosine) = particle.azimuth.sin_cos();
         let along = particle.speed * particle.angle.cos();
-        let mut place = [0.0, 0.0, START];
+        let [aside, above] = particle.offset;
+        let mut place = [aside, 0.0, START + above];
         let mut speed = [along * cosine, along * sine, -particle.speed * particle.angle.sin()];
         let mut left = self.time_limit;
         while let Some((time, Goal::Wall(wall))) = self.next(place, speed, radius, left) {
@@ -247,7 +257,7 @@ fn blown(particle: &Particle, density: f64) -> Inputs {
         let e = slope(moved(c, 1.0));
         [0, 1, 2].map(|i| at[i] + time / 6.0 * (a[i] + 2.0 * b[i] + 2.0 * c[i] + e[i]))
     };
-    let goal = START - d / 2.0;
+    let goal = START + particle.offset[1] - d / 2.0;
     let time = goal / gas.max(speed * angle.sin()) / STEPS as f64;
     let mut at = [0.0, speed * angle.cos(), speed * angle.sin()];
     loop {

@@ -112,6 +112,8 @@ pub struct Source {
     pub layer: f64,
     pub gas_speed: f64,
     pub gas_temperature: f64,
+    /// How far beside and above the stated place particles really start, m.
+    pub offset: [f64; 2],
 }
 
 /// A particle at its start.
@@ -121,6 +123,8 @@ pub struct Particle {
     /// Radians from the wall.
     pub angle: f64,
     pub azimuth: f64,
+    /// How far beside and above the stated place it starts, m.
+    pub offset: [f64; 2],
     /// All that an impact needs, but the velocity.
     pub inputs: Inputs,
     /// Seed of its random draws.
@@ -198,6 +202,7 @@ impl Source {
             speed: self.speed.draw(rng),
             angle: self.angle.draw(rng).to_radians(),
             azimuth: rng.uniform((0.0, std::f64::consts::TAU)),
+            offset: self.offset,
             inputs,
             seed: (rng.unit() * 2_f64.powi(53)) as u64,
         }

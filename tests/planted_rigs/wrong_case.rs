@@ -1,4 +1,4 @@
-//! Rigs whose wall law is right and of whose case one number is wrong.
+//! Rigs whose wall law is right and of whose case one number is wrong, or a force is left out.
 
 use std::collections::BTreeMap;
 
@@ -9,20 +9,22 @@ use crate::effects::{Plan, constant_law, lab};
 use crate::expected::is_one_of;
 use crate::gates::require;
 use crate::lab::{Errors, Lab};
-use crate::rig::{Observable, Rig, Shape};
+use crate::rig::{Observable, Rig, START, Shape};
 use crate::score;
 use crate::set_rng::SetRng;
 use crate::sets::Set;
 use crate::source::{Knob, Source, Spread, State};
 
 /// Every number that is wrong in a set.
-pub const NUMBERS: [WrongNumber; 6] = [
+pub const NUMBERS: [WrongNumber; 8] = [
     WrongNumber::Speed,
     WrongNumber::Size,
     WrongNumber::Temperature,
     WrongNumber::Angle,
     WrongNumber::GasSpeed,
     WrongNumber::Spread,
+    WrongNumber::Place,
+    WrongNumber::Weight,
 ];
 
 /// A number of the case.
@@ -35,6 +37,10 @@ pub enum WrongNumber {
     GasSpeed,
     /// Of the sizes.
     Spread,
+    /// Of injection, beside the middle of the target.
+    Place,
+    /// No number: the case leaves the weight out.
+    Weight,
 }
 
 /// What is wrong with a case.
@@ -60,7 +66,14 @@ impl CaseError {
                     *deviation *= factor(0.1);
                 }
             }
+            WrongNumber::Place => source.offset[0] += 0.05 * START * self.widths,
+            WrongNumber::Weight => {}
         }
+    }
+
+    /// The rig as it really was.
+    pub fn rig(&self, rig: Rig) -> Rig {
+        Rig { falls: rig.falls || self.number == WrongNumber::Weight, ..rig }
     }
 }
 
@@ -74,6 +87,8 @@ impl WrongNumber {
             Self::Angle => "case-angle",
             Self::GasSpeed => "case-gas-speed",
             Self::Spread => "case-spread",
+            Self::Place => "case-place",
+            Self::Weight => "case-weight",
         }
     }
 
@@ -86,6 +101,8 @@ impl WrongNumber {
             Self::Angle => "case:particles.angle_deg",
             Self::GasSpeed => "case:gas.velocity",
             Self::Spread => "case:particles.diameter.deviation",
+            Self::Place => "case:particles.position.x",
+            Self::Weight => "case:without-gravity",
         }
     }
 }
@@ -108,6 +125,8 @@ pub fn plan(number: WrongNumber, index: usize, rng: &mut SetRng) -> Plan {
         WrongNumber::GasSpeed => blown(&mut lab, rng),
         WrongNumber::Spread => spread(&mut lab, rng),
         WrongNumber::Angle => oblique(&mut lab, rng),
+        WrongNumber::Place => aside(&mut lab, rng),
+        WrongNumber::Weight => weightless(&mut lab, rng),
         WrongNumber::Speed | WrongNumber::Size if rng.chance(0.4) => blown(&mut lab, rng),
         WrongNumber::Speed | WrongNumber::Size => sticking(&mut lab, rng),
     }
@@ -154,7 +173,7 @@ fn melting(lab: &mut Lab, rng: &mut SetRng) {
 /// Particles that a gas blows onto the plate.
 fn blown(lab: &mut Lab, rng: &mut SetRng) {
     *lab = Lab { errors: lab.errors, ..crate::effects::lab(System::Wax, lab.law, rng) };
-    lab.rig = Rig { shape: Shape::Blown, time_limit: 1.0 };
+    lab.rig = Rig::new(Shape::Blown, 1.0);
     lab.source.diameter = State::fixed(crate::lab::rounded(rng.log_uniform((25e-6, 60e-6))));
     lab.source.gas_speed = crate::lab::rounded(rng.uniform((4.0, 10.0)));
     lab.knobs = vec![(Knob::Speed, (0.5, 3.0))];
@@ -177,6 +196,23 @@ fn oblique(lab: &mut Lab, rng: &mut SetRng) {
     sticking(lab, rng);
     lab.source.angle = State::fixed(45.0);
     lab.knobs.push((Knob::Angle, (22.0, 60.0)));
+}
+
+/// A target of which the deposit is weighed in rings, struck on one spot.
+fn aside(lab: &mut Lab, rng: &mut SetRng) {
+    sticking(lab, rng);
+    lab.source.angle = State::fixed(crate::lab::rounded(rng.uniform((75.0, 85.0))));
+    let middle = START / lab.source.angle.middle.to_radians().tan();
+    let bounds = [0.0, 0.6, 1.0, 1.6, 10.0].map(|share| crate::lab::rounded(share * middle));
+    let rings = bounds.windows(2).map(|pair| (Observable::CapturedFrom(pair[0], pair[1]), 0));
+    lab.readings = rings.collect();
+}
+
+/// Rebounds that fall back, of which the case knows nothing.
+fn weightless(lab: &mut Lab, rng: &mut SetRng) {
+    sticking(lab, rng);
+    lab.rig = Rig { falls: false, ..Rig::new(Shape::Bounce, crate::lab::rounded(rng.uniform((0.1, 0.3)))) };
+    readings(lab, rng);
 }
 
 /// What a diagnosis says of a set.

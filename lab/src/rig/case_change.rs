@@ -8,6 +8,8 @@ use super::tally::{PredictedReading, away_from_edges};
 
 /// Places of the number, in its standard errors: within three the instrument errs, beyond it is a mistake.
 pub(super) const PLACES: [f64; 6] = [-10.0, -6.0, -3.0, 3.0, 6.0, 10.0];
+/// Place of a force that the case leaves out, without which it is at 0.
+pub const PRESENT: f64 = 1.0;
 /// The farthest of them.
 pub const FARTHEST: f64 = 10.0;
 

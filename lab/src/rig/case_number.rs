@@ -3,19 +3,28 @@
 //! A wrong number is wrong in all experiments in the same way: a temperature or an angle by a
 //! difference, anything else by a factor. An experiment that sets the number itself used the same
 //! instrument. How far it may be off is the standard error that the case states, or a usual one.
+//!
+//! The place of injection may be off along each axis; its usual error is 5 % of the distance to the nearest wall. About
+//! the z axis, where no vector of the case has another part, x stands for both. A force that the case leaves out is
+//! none of the instruments' errors: it is missing, or it is not.
 
 use std::collections::BTreeMap;
 
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
 use super::case_text::{change_value, find_mut};
-use crate::simulate::{DistributionKey, number_of};
+use super::missing_force::{MissingForce, size};
+use crate::simulate::{Case, DistributionKey, Injection, SurfaceKind, number_of};
 
 /// How a number changes.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Shift {
     Factor,
     Difference,
+    /// A part of a vector, by a difference.
+    Part(usize),
+    /// A force that is added.
+    Force(MissingForce),
 }
 
 /// A kind of number.
@@ -83,6 +92,12 @@ const fn speed(key: &'static str) -> NumberKind {
     }
 }
 
+/// The axes, and the keys of a place.
+const AXES: [&str; 3] = ["x", "y", "z"];
+const PLACES: [&str; 2] = ["at", "center"];
+/// Usual error of the place of injection over its distance from the nearest wall [1].
+const PLACE_ERROR: f64 = 0.05;
+
 /// What the keys of a distribution hold that are its middle, its spread, and the ends of an even one.
 const MIDDLE: &[DistributionKey] = &[DistributionKey::Middle];
 pub(super) const SPREAD: &[DistributionKey] = &[DistributionKey::Deviation, DistributionKey::Shape];
@@ -132,6 +147,55 @@ impl CaseNumber {
         found
     }
 
+    /// The places of injection of a case.
+    pub(super) fn places(case: &Case, document: &DocumentMut, errors: &BTreeMap<String, f64>) -> Vec<Self> {
+        let axes = if is_about_z(document.as_item()) { &[0, 2][..] } else { &[0, 1, 2] };
+        let is_list = matches!(document.get("particles"), Some(Item::ArrayOfTables(_)));
+        let one = |injection: &Injection| {
+            let name = if is_list { format!("particles.{}", injection.name) } else { "particles".to_owned() };
+            let quantity = format!("{name}.position");
+            let place = injection.release();
+            let walls = case.surfaces.iter().filter(|one| matches!(one.kind, SurfaceKind::Wall { .. }));
+            let nearest = walls.map(|one| one.shape.distance(&place).abs()).fold(f64::INFINITY, f64::min);
+            let stated = errors.get(&quantity).copied();
+            let error = stated.unwrap_or(PLACE_ERROR * nearest);
+            let of = move |axis: &usize| Self {
+                key: format!("{quantity}.{}", AXES[*axis]),
+                value: place[*axis],
+                error,
+                stated: stated.is_some(),
+                unit: "m",
+                instrument: "the place of the nozzle beside the wall",
+                quantity: quantity.clone(),
+                spread: false,
+                shift: Shift::Part(*axis),
+            };
+            axes.iter().map(of).filter(|one| one.error > 0.0 && one.error.is_finite()).collect::<Vec<_>>()
+        };
+        case.injections.iter().flat_map(one).collect()
+    }
+
+    /// The forces that a case leaves out.
+    pub(super) fn forces(case: &Case, document: &DocumentMut) -> Vec<Self> {
+        let one = |force: MissingForce| Self {
+            key: force.name().to_owned(),
+            value: 0.0,
+            error: 1.0,
+            stated: false,
+            unit: "1",
+            instrument: force.instrument(),
+            quantity: String::new(),
+            spread: false,
+            shift: Shift::Force(force),
+        };
+        MissingForce::all(case, document).into_iter().map(one).collect()
+    }
+
+    /// In words, if it is no number but a force that the case leaves out.
+    pub fn missing_force(&self) -> Option<&'static str> {
+        if let Shift::Force(force) = self.shift { Some(force.words()) } else { None }
+    }
+
     fn of_table(table: &dyn TableLike, path: &str, errors: &BTreeMap<String, f64>, found: &mut Vec<Self>) {
         for kind in &KINDS {
             let (key, spread) = kind.key.split_once(' ').map_or((kind.key, false), |(key, _)| (key, true));
@@ -167,15 +231,20 @@ impl CaseNumber {
             Shift::Factor if self.key.ends_with(".exponent") => value * factor(-widths),
             Shift::Factor if self.key.ends_with(".geometric_deviation") => value.powf(factor(widths)),
             Shift::Factor => value * factor(widths),
-            Shift::Difference => value + widths * self.error,
+            Shift::Difference | Shift::Part(_) => value + widths * self.error,
+            Shift::Force(_) => value,
         }
     }
 
     /// Moves the number in the text of a case by so many standard errors.
     pub(super) fn shift(&self, document: &mut DocumentMut, widths: f64) {
+        if let Shift::Force(force) = self.shift {
+            return force.add(document);
+        }
         let Some(item) = find_mut(document, &self.quantity) else { return };
         match item.as_table_like_mut() {
             None => self.change(item, &|value| self.moved(value, widths)),
+            Some(table) if matches!(self.shift, Shift::Part(_)) => self.shift_place(table, widths),
             Some(table) => {
                 let is_even = table.get("distribution").and_then(Item::as_str) == Some("uniform");
                 let keys = match (self.spread, is_even) {
@@ -189,6 +258,16 @@ impl CaseNumber {
                     }
                 }
             }
+        }
+    }
+
+    /// Moves a place along an axis.
+    fn shift_place(&self, table: &mut dyn TableLike, widths: f64) {
+        let Shift::Part(axis) = self.shift else { return };
+        let Some(key) = PLACES.into_iter().find(|key| table.contains_key(key)) else { return };
+        let place = table.get_mut(key).and_then(Item::as_value_mut).and_then(Value::as_array_mut);
+        if let Some(value) = place.and_then(|list| list.get_mut(axis)) {
+            change_value(value, &|value| self.moved(value, widths));
         }
     }
 
@@ -220,11 +299,22 @@ fn middle(item: &Item, spread: bool) -> Option<(String, f64)> {
     keys.find_map(|key| Some((format!(".{key}"), number(key)?)))
 }
 
-/// A number, or the length of a vector.
-fn size(value: &Value) -> Option<f64> {
-    let Value::Array(list) = value else { return number_of(value) };
-    let squares: Option<Vec<f64>> = list.iter().map(|one| number_of(one).map(|one| one * one)).collect();
-    Some(squares?.iter().sum::<f64>().sqrt())
+/// Whether all vectors point along the z axis.
+fn is_about_z(item: &Item) -> bool {
+    let of_value = |value: &Value| match value {
+        Value::Array(list) if list.len() == 3 => {
+            let numbers: Vec<f64> = list.iter().filter_map(number_of).collect();
+            numbers.len() < 3 || numbers[..2].iter().all(|number| *number == 0.0)
+        }
+        Value::InlineTable(table) => table.iter().all(|(_, value)| is_about_z(&Item::Value(value.clone()))),
+        _ => true,
+    };
+    match item {
+        Item::Value(value) => of_value(value),
+        Item::Table(table) => table.iter().all(|(key, item)| key == "model" || is_about_z(item)),
+        Item::ArrayOfTables(tables) => tables.iter().all(|one| one.iter().all(|(_, item)| is_about_z(item))),
+        Item::None => true,
+    }
 }
 
 #[cfg(test)]

@@ -184,9 +184,14 @@ impl CaseText {
         })
     }
 
-    /// The numbers that may be wrong, with their standard errors.
+    /// The numbers that may be wrong, with their standard errors, and the forces that may be missing.
     pub fn numbers(&self) -> Vec<CaseNumber> {
-        CaseNumber::all(&self.document, &self.errors)
+        let mut all = CaseNumber::all(&self.document, &self.errors);
+        if let Ok(case) = self.read(&self.document) {
+            all.extend(CaseNumber::places(&case, &self.document, &self.errors));
+            all.extend(CaseNumber::forces(&case, &self.document));
+        }
+        all
     }
 
     /// As [`CaseText::with`], with a number of the case moved by so many standard errors.

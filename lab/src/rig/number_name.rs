@@ -4,7 +4,7 @@ use crate::simulate::DistributionKey;
 use nearwall::model::unit_of;
 
 /// SI units of the numbers of a case, and of those of a model whose definition states none, by their last key.
-const UNITS: [(&str, &str); 29] = [
+const UNITS: [(&str, &str); 30] = [
     ("activation_energy", "J/mol"),
     ("angle_deg", "°"),
     ("asperity", "m"),
@@ -25,6 +25,7 @@ const UNITS: [(&str, &str); 29] = [
     ("heat_capacity", "J/(kg K)"),
     ("height", "m"),
     ("mean_free_path", "m"),
+    ("peak_height", "m"),
     ("radiation_temperature", "K"),
     ("reference_viscosity", "Pa s"),
     ("speed", "m/s"),

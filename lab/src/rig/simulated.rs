@@ -12,7 +12,7 @@
 
 use rayon::prelude::*;
 
-use super::case_change::{CaseChanges, PLACES};
+use super::case_change::{CaseChanges, PLACES, PRESENT};
 use super::case_number::CaseNumber;
 use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
@@ -244,7 +244,8 @@ impl<'a> Paths<'a> {
                 (moved.seed, moved.tolerance) = (case.seed, case.tolerance);
                 Some((widths, self.exactly(&moved, particles)))
             };
-            let moved = PLACES.into_par_iter().filter_map(at).collect();
+            let places = if numbers[number].missing_force().is_some() { &[PRESENT][..] } else { &PLACES[..] };
+            let moved = places.into_par_iter().copied().filter_map(at).collect();
             self.changes[number] = CaseChanges::new(&shares, &base, moved);
         }
     }

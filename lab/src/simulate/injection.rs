@@ -218,6 +218,14 @@ impl Injection {
         (diameter, state(&position, &velocity, temperature, conversion))
     }
 
+    /// The middle of the place from which its particles come [m].
+    pub(crate) fn release(&self) -> Vector3<f64> {
+        match self.place {
+            ReleaseShape::Point(point) => point,
+            ReleaseShape::Disc { centre, .. } => centre,
+        }
+    }
+
     /// Centres one of [`SWEEPABLE`] on a value.
     pub(super) fn centre(&mut self, what: &str, value: f64) {
         let distribution = match what {

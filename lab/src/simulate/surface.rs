@@ -170,15 +170,24 @@ pub enum SurfaceKind {
         cooling: Option<Cooling>,
         /// Friction velocity of the gas at it [m/s].
         friction_velocity: f64,
+        /// Height of its peaks over the plane of the wall [m]: where particles touch it.
+        peak_height: f64,
     },
     /// The particle leaves.
     Exit,
 }
 
 impl Surface {
-    /// Distance at which a particle of this diameter touches, subtracted: 0 at contact [m].
+    /// Distance at which a particle of this diameter touches, subtracted: 0 at contact [m]. On a rough wall it touches
+    /// the peaks, while the gas and its fluctuations end at the plane of the wall: the way in which roughness that lies
+    /// within the viscous layer catches fine particles (Wood, J. Aerosol Sci. 12 (1981) 275; Li and Ahmadi, Aerosol
+    /// Sci. Technol. 18 (1993) 11, who shift the wall by a share of the roughness). Peaks above some 5 viscous lengths
+    /// change the gas, too, which is left out.
     pub fn gap(&self, position: &Vector3<f64>, diameter: f64) -> f64 {
-        let reach = if matches!(self.kind, SurfaceKind::Exit) { 0.0 } else { 0.5 * diameter };
+        let reach = match self.kind {
+            SurfaceKind::Exit => 0.0,
+            SurfaceKind::Wall { peak_height, .. } => 0.5 * diameter + peak_height,
+        };
         self.shape.distance(position) - reach
     }
 
@@ -233,9 +242,10 @@ impl Surface {
             (None, None) => return Err(section.missing("temperature", "the wall's temperature [K]")),
         };
         let friction_velocity = section.number_within("friction_velocity", 0.0, 1e3)?.unwrap_or(0.0);
+        let peak_height = section.number_within("peak_height", 0.0, 1.0)?.unwrap_or(0.0);
         let shape = SurfaceShape::read(section)?;
         section.finish()?;
-        let kind = SurfaceKind::Wall { model: index, temperature, cooling, friction_velocity };
+        let kind = SurfaceKind::Wall { model: index, temperature, cooling, friction_velocity, peak_height };
         Ok(Self { name, shape, kind })
     }
 }

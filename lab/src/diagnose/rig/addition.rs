@@ -10,7 +10,7 @@ use super::super::record::Estimate;
 use super::super::search::SearchAxis;
 use super::form::RigForm;
 use super::inputs::Over;
-use crate::rig::{CaseNumber, FARTHEST};
+use crate::rig::{CaseNumber, FARTHEST, PRESENT};
 use nearwall::effect::{CurveAxis, CurveTarget, FORMS, FittedCurve, Operation, Term};
 use nearwall::model::Model;
 
@@ -32,7 +32,7 @@ pub(super) enum Kind {
     /// A closed form in the place of a curve.
     Form(RigForm),
     /// Another value of a number of the case, by place; the parameter is its distance from the case's
-    /// value in standard errors.
+    /// value in standard errors. A force that the case leaves out has no parameter.
     Case {
         place: usize,
         number: CaseNumber,
@@ -88,12 +88,13 @@ impl RigAddition {
         RigForm::near(on, over, &factors).into_iter().map(|(form, at)| Self::form(form, at)).collect()
     }
 
-    /// A number of the case that is grossly wrong.
+    /// A number of the case that is grossly wrong, or a force that it leaves out.
     pub fn case(place: usize, number: CaseNumber) -> Self {
+        let count = usize::from(number.missing_force().is_none());
         Self {
             kind: Kind::Case { place, number },
-            axes: vec![SearchAxis::linear(-FARTHEST, FARTHEST)],
-            at: vec![0.5],
+            axes: vec![SearchAxis::linear(-FARTHEST, FARTHEST); count],
+            at: vec![0.5; count],
             intervals: Vec::new(),
         }
     }
@@ -101,7 +102,7 @@ impl RigAddition {
     /// The number of the case that it changes, with its place and its distance in standard errors.
     pub fn case_number(&self) -> Option<(usize, &CaseNumber, f64)> {
         let Kind::Case { place, number } = &self.kind else { return None };
-        Some((*place, number, *self.values().first()?))
+        Some((*place, number, self.values().first().copied().unwrap_or(PRESENT)))
     }
 
     /// The same at other coordinates.
@@ -237,9 +238,10 @@ impl RigAddition {
                 self.fitted().map(|part| part.estimates().collect()).unwrap_or_default()
             }
             Kind::Case { ref number, .. } => {
-                let [low, high] = self.intervals.first().copied().unwrap_or([self.values()[0]; 2]);
+                let Some(now) = self.values().first().copied() else { return Vec::new() };
+                let [low, high] = self.intervals.first().copied().unwrap_or([now; 2]);
                 let [value, low, high] =
-                    [self.values()[0], low, high].map(|widths| rounded(number.moved(number.value, widths)));
+                    [now, low, high].map(|widths| rounded(number.moved(number.value, widths)));
                 let [low, high] = [low.min(high), low.max(high)];
                 vec![("value", Estimate { value, low, high, unit: number.unit })]
             }

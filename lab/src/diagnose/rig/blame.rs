@@ -32,7 +32,8 @@ pub struct Parties {
 /// What one party carries of a misfit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Blame {
-    /// `wall law`, or a number of the case as `case:gas.temperature`.
+    /// `wall law`, a number of the case as `case:gas.temperature`, or a force that the case leaves out as
+    /// `case:without-gravity`.
     pub party: String,
     /// Share of the fall of chi-square [1].
     pub share: f64,
@@ -105,7 +106,7 @@ pub(super) fn blame(study: &RigStudy<'_>, choice: &RigChoice) -> Result<Vec<Blam
     let of = |(number, one): (&CaseNumber, &Carried)| Blame {
         party: format!("case:{}", number.key),
         share: one.fall / total,
-        number: Some(blamed(number, one.widths)),
+        number: number.missing_force().is_none().then(|| blamed(number, one.widths)),
     };
     let law = Blame { party: "wall law".to_owned(), share: by_law / total, number: None };
     let mut all: Vec<Blame> = numbers.iter().zip(&by_number).map(of).chain([law]).collect();
@@ -174,7 +175,10 @@ pub(super) fn sentences(parties: &Parties, blame: &[Blame], named: &[&str]) -> S
     let share = |one: &Blame| {
         let percent = 100.0 * one.share;
         match &one.number {
-            None => format!("the {} {percent:.0} %", one.party),
+            None => match one.party.strip_prefix("case:") {
+                Some(force) => format!("the case {} {percent:.0} %", force.replace('-', " ")),
+                None => format!("the {} {percent:.0} %", one.party),
+            },
             Some(BlamedNumber { unit, from, value, low, high, .. }) => {
                 let key = one.party.trim_start_matches("case:");
                 let [value, low, high] = [value, low, high].map(short);

@@ -389,6 +389,12 @@ fn wrong_number(finding: &Finding, number: &CaseNumber) -> String {
         [] => String::new(),
         others => format!(" These experiments do not exclude {}.", others.join(" or ")),
     };
+    if let Some(force) = number.missing_force() {
+        return format!(
+            "The wall law is not needed for this: the case leaves out {force}, with which the readings fit. What tells \
+                it: {instrument}.{others}"
+        );
+    }
     format!(
         "The wall law is not needed for this: the readings fit {key} = {} {unit} instead of {from}, which has an \
             error of {}. Where experiments set it, theirs is off in the same way. What tells it: {instrument}.{others}",
@@ -463,6 +469,9 @@ const RIG: Words = Words {
 /// The words where nothing is named.
 const NOTHING: Words = Words { subject: "simulation", ..RIG };
 
+/// How the id of a force begins that the case leaves out.
+const LEFT_OUT: &str = "case:without-";
+
 /// What the wall law lacks and which numbers of the case are wrong, or what `nothing` says. The case alone is at
 /// fault with the probability `alone`.
 fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> String) -> String {
@@ -475,8 +484,13 @@ fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> Str
             format!("{} ({words})", &finding.cause["case:".len()..])
         })
         .collect();
+    let is_force = |finding: &Finding| finding.cause.starts_with(LEFT_OUT);
     let wrong = match numbers.as_slice() {
         [] => return found(diagnosis, &RIG, nothing),
+        all if case.iter().all(is_force) => {
+            let words: Vec<String> = all.iter().map(|one| one.replacen('-', " ", 1)).collect();
+            format!("it is {}.", words.join(" and "))
+        }
         [one] => format!("{one} is wrong by more than its error."),
         several => format!("{} are wrong by more than their errors.", several.join(" and ")),
     };

@@ -49,7 +49,12 @@ pub(in crate::diagnose) fn readings(
     let mut moved = Vec::new();
     for (place, number) in forward.case_numbers().iter().enumerate() {
         let one = RigAddition::case(place, number.clone());
-        let at = |widths: f64| predict(forward, &[one.moved(&[one.axes[0].coordinate(widths)])]);
+        let Some(axis) = one.axes.first() else {
+            // A force is missing or not: no instrument errs.
+            moved.push([prepared.clone(), prepared.clone()]);
+            continue;
+        };
+        let at = |widths: f64| predict(forward, &[one.moved(&[axis.coordinate(widths)])]);
         moved.push([data.prepare(&at(-LINEAR)?), data.prepare(&at(LINEAR)?)]);
     }
     data.set_case_errors(&prepared, &moved, LINEAR);
