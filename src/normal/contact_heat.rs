@@ -26,7 +26,7 @@ use std::f64::consts::PI;
 use super::Touch;
 
 /// Mean over the area of Hertz' contact of `2 sqrt(tau/(pi t))`, `tau` the time for which a spot touches [1].
-const QUICK: f64 = 0.870_875;
+const QUICK: f64 = 0.870_926;
 /// Four times the mean of the contact's radius over time, in its largest radius [1].
 const SLOW: f64 = 3.016_478;
 /// Power with which the limits are joined [1].
