@@ -6,6 +6,7 @@
 //! rest. A candidate's gain is that of its fit in log likelihood, less its number of parameters
 //! (Akaike 1974).
 
+use nearwall::effect::EFFECTS;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
@@ -243,7 +244,9 @@ impl<'a> CandidateRound<'a> {
         // A threshold replaces the probability of capture, and with it what laws and curves do to it.
         let of = self.hypothesis;
         let is_capture = |curve: &ColumnCurve| curve.form.observable == Observable::Capture;
-        if is_capture(&free) && (!of.parts.is_empty() || of.curves.iter().any(is_capture)) {
+        if is_capture(&free)
+            && (!of.parts.is_empty() || of.curves.iter().any(is_capture) || self.has_law(&free))
+        {
             return free;
         }
         let best = forms(&free, &self.search).into_iter().next().map(|(closed, _)| free.closed_by(closed));
@@ -253,6 +256,12 @@ impl<'a> CandidateRound<'a> {
             form > worth(gain, free.freedom)
         });
         better.unwrap_or(free)
+    }
+
+    /// Whether an effect of the library depends on the column of a curve alone: its law is the form over it.
+    fn has_law(&self, curve: &ColumnCurve) -> bool {
+        let columns = curve.form.columns(self.data());
+        EFFECTS.iter().any(|effect| effect.inputs.iter().eq(columns.iter()))
     }
 
     /// A constant of captures; the parts are refitted beside a ceiling, without which they are too wide.
