@@ -28,7 +28,7 @@ use super::Touch;
 /// Mean over the area of Hertz' contact of `2 sqrt(tau/(pi t))`, `tau` the time for which a spot touches [1].
 const QUICK: f64 = 0.870_926;
 /// Four times the mean of the contact's radius over time, in its largest radius [1].
-const SLOW: f64 = 3.016_478;
+const SLOW: f64 = 3.016_506;
 /// Power with which the limits are joined [1].
 const POWER: f64 = 4.0 / 3.0;
 

@@ -149,16 +149,21 @@ fn heat(text: &str, wall: usize, impact: &Impact) -> f64 {
     Model::from_toml("m", text).unwrap().contact_heat(wall, impact).unwrap()
 }
 
-/// Sand of 200 µm at 900 K and 5 m/s on steel of 400 K, elastic: Hertz' radius and time and the quick touch by hand.
-#[test]
-fn an_elastic_grain_by_hand() {
-    let impact = Impact {
+/// A grain of 200 µm and 900 K at 5 m/s on a wall of 400 K.
+fn grain() -> Impact {
+    Impact {
         normal_speed: 5.0,
         diameter: 200e-6,
         particle_temperature: 900.0,
         wall_temperature: 400.0,
         ..Impact::default()
-    };
+    }
+}
+
+/// Sand of 200 µm at 900 K and 5 m/s on steel of 400 K, elastic: Hertz' radius and time and the quick touch by hand.
+#[test]
+fn an_elastic_grain_by_hand() {
+    let impact = grain();
     let modulus = 1.0 / ((1.0 - 0.04) / 7e10 + (1.0 - 0.09) / 2e11);
     let mass = 2600.0 * std::f64::consts::PI / 6.0 * 200e-6_f64.powi(3);
     let depth = (15.0 * mass * 25.0 / (16.0 * modulus * 1e-2)).powf(0.4);
@@ -181,13 +186,7 @@ fn powder_counts_by_its_area_and_heat_has_an_end() {
     let powder =
         format!("{SAND}[materials.wool]\nlike = \"sand\"\ndensity = 100\nthermal_conductivity = 0.05\n");
     let covered = powder.replace("contact_heat", "powder = \"wool\"\ncontact_heat");
-    let impact = Impact {
-        normal_speed: 5.0,
-        diameter: 200e-6,
-        particle_temperature: 900.0,
-        wall_temperature: 400.0,
-        ..Impact::default()
-    };
+    let impact = grain();
     let at = |coverage| heat(&covered, 0, &Impact { coverage, ..impact });
     assert_relative_eq!(at(0.5), 0.5 * (at(0.0) + at(1.0)), max_relative = 1e-12);
     assert!(at(1.0) < 0.2 * at(0.0));

@@ -394,32 +394,24 @@ fn ask(bytes: &mut Bytes<'_>, model: *const nw_model) {
 /// Heat that a captured particle brings.
 fn bring(bytes: &mut Bytes<'_>, model: *const nw_model) {
     let capacity = if bytes.below(2) == 0 { 1e3 } else { bytes.number() };
-    let given = impact(bytes);
-    let mut asked = GuardedBuffer::holding(bytes, given);
-    let from: *const nw_impact = asked.start_or_null(bytes);
-    let mut buffer = GuardedBuffer::new(bytes, 8);
-    let to = buffer.start_or_null(bytes);
-    // SAFETY: each is null or what it should be.
-    let status = unsafe { nw_heat_brought(model, from, capacity, to) };
-    known(status);
-    asked.assert_guard_intact();
-    buffer.assert_guard_intact();
-    if status == NW_OK {
-        assert!(buffer.f64().is_finite());
-    } else {
-        buffer.assert_untouched();
-    }
+    // SAFETY: each pointer is null or what it should be.
+    ask_heat(bytes, |impact, heat| unsafe { nw_heat_brought(model, impact, capacity, heat) });
 }
 
 /// Heat of a particle that rebounds.
 fn touch(bytes: &mut Bytes<'_>, model: *const nw_model) {
+    // SAFETY: each pointer is null or what it should be.
+    ask_heat(bytes, |impact, heat| unsafe { nw_contact_heat(model, impact, heat) });
+}
+
+/// Asks for the heat of an impact.
+fn ask_heat(bytes: &mut Bytes<'_>, ask: impl FnOnce(*const nw_impact, *mut f64) -> nw_status) {
     let given = impact(bytes);
     let mut asked = GuardedBuffer::holding(bytes, given);
     let from: *const nw_impact = asked.start_or_null(bytes);
     let mut buffer = GuardedBuffer::new(bytes, 8);
     let to = buffer.start_or_null(bytes);
-    // SAFETY: each is null or what it should be.
-    let status = unsafe { nw_contact_heat(model, from, to) };
+    let status = ask(from, to);
     known(status);
     asked.assert_guard_intact();
     buffer.assert_guard_intact();

@@ -285,8 +285,9 @@ impl<'a> Tracker<'a> {
     /// # Errors
     /// As [`Model::resolve`].
     pub fn give_heat(&mut self, contact: &WallContact) -> Result<f64, ImpactError> {
-        let Some(heat_capacity) = self.motion.body.heat_capacity else { return Ok(0.0) };
         let model = self.case.model_of(self.injection);
+        let asked = self.motion.body.heat_capacity.filter(|_| model.has_contact_heat());
+        let Some(heat_capacity) = asked else { return Ok(0.0) };
         let heat = model.contact_heat(contact.wall, &contact.impact)?;
         let mass = self.motion.body.mass_at(self.state[CONVERSION]);
         self.state[TEMPERATURE] -= heat / (mass * heat_capacity);
