@@ -24,6 +24,12 @@ const wordList names
 const scalar smoothedParcels = 20;
 
 
+//- In so many of the times after which gas and radiation answer, the lag passes
+//  on: over an insulated wall, which takes always the same, lag' = lag - (lag
+//  before)/lagTimes. With 4 it halves in each step; with 1 it oscillates for ever
+const scalar lagTimes = 4;
+
+
 //- Temperature of a surface [K] that takes a heat flux [W/m2], by Newton's method
 //  from a first guess
 scalar surfaceThatTakes
@@ -191,7 +197,8 @@ void Foam::nearWall::wallHeat::collect
 void Foam::nearWall::wallHeat::beginPatch
 (
     const label patchi,
-    const scalar time
+    const scalar time,
+    const scalar answer
 )
 {
     if (!started_) return;
@@ -199,10 +206,8 @@ void Foam::nearWall::wallHeat::beginPatch
     const scalar share = share_[place(patchi)];
     coefficient_[patchi] = share*capacity_.boundaryField()[patchi]/time;
     given_[patchi] =
-        (
-            share*enthalpy_.boundaryField()[patchi]
-          + lag_.boundaryField()[patchi]
-        )/time;
+        share*enthalpy_.boundaryField()[patchi]/time
+      + lag_.boundaryField()[patchi]/(lagTimes*max(time, answer));
 }
 
 

@@ -374,6 +374,20 @@ bool Foam::nearWall::wallMemory::anyProcess(const char* const name) const
 }
 
 
+void Foam::nearWall::wallMemory::refuseResting(const scalar mass) const
+{
+    if (mass <= 0 || !returning_.on()) return;
+
+    FatalErrorInFunction
+        << "Key 'parcels' of memory, shed: stuck parcels of an earlier run, "
+        << mass << " kg, rest on the walls. They are in the deposit, too, and"
+        << " would come back from there as well." << nl
+        << "    Write stuck remove; from the first time of the case on, or"
+        << " remove their cloud and its deposit from " << mesh_.time().timeName()
+        << exit(FatalError);
+}
+
+
 void Foam::nearWall::wallMemory::checkCooled()
 {
     for (const label patchi : patches_)
@@ -779,7 +793,10 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     if (cooling)
     {
         heating = cooling->heating();
-        heat_.beginPatch(patchi, duration);
+        heat_.beginPatch
+        (
+            patchi, duration, acceleration_*cooling->answersAfter()
+        );
     }
     const patchSurroundings surroundings(*this, i);
     const bool gainsMass = acts(*model_, rules_[patchi].wall, bringsMass);

@@ -307,6 +307,18 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::fromRadiation() const
 }
 
 
+Foam::scalar
+Foam::nearWallDepositTemperatureFvPatchScalarField::answersAfter() const
+{
+    const word name("radiationProperties");
+    if (given_.qr == "none" || !db().foundObject<IOdictionary>(name)) return 0;
+
+    const label steps =
+        readOr<label>(db().lookupObject<IOdictionary>(name), "solverFreq", label(1));
+    return steps*db().time().deltaTValue();
+}
+
+
 Foam::List<nw_wall_cooling>
 Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
 {

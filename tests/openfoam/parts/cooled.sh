@@ -54,6 +54,40 @@ case_cooled() {
     done
 }
 
+# A floor of brick sees walls of 1500 K by a radiation model that is solved in each step, or in every eighth: heat that the model gave by
+# an earlier temperature must not swing to and fro, nor grow until the model answers. Both end with the same temperature
+case_radiated() {
+    local every said
+    for every in 1 8; do
+        cooled_box "$work/radiated-$every" 0 || return
+        sed -i 's/type fixedValue; value uniform 700/type fixedValue; value uniform 1500/' 0/T
+        sed -i 's/^ *"\.\*" .*/&\nfloor { type nearWallDepositTemperature; cloud coalCloud1; Ta 320; h 20; thicknessLayers (0.2); kappaLayers (2.5);\nqr qr; value uniform 1300; }/' 0/T
+        field G volScalarField "1 0 -3 0 0 0 0" 1e6 "type MarshakRadiation; value uniform 1e6;" "type MarshakRadiation; value uniform 1e6;"
+        { header dictionary radiationProperties
+          echo "radiation on; radiationModel P1; solverFreq $every; scatterModel none; transmissivityModel none; sootModel none;
+                absorptionEmissionModel constantAbsorptionEmission;
+                constantAbsorptionEmissionCoeffs { absorptivity absorptivity [0 -1 0 0 0 0 0] 0.3; emissivity emissivity [0 -1 0 0 0 0 0] 0.3; E E [1 -1 -3 0 0 0 0] 0; }"
+        } > constant/radiationProperties
+        { header dictionary boundaryRadiationProperties
+          echo '".*" { mode lookup; emissivity 1; absorptivity 1; transmissivity 0; }'
+        } > constant/boundaryRadiationProperties
+        settings 0.8 0.8 startTime ascii
+        solve radiated "every-$every" "$solver" || return
+        closes "radiated/balance-$every" "$(folder coalCloud1)"/floor.heat.dat
+        wall_temperatures 0.8 | grep '^floor' > ../radiated.$every
+        # In units of what the wall takes in eight steps
+        said="$(awk '
+            $1 == "#" { for (i = 2; i <= NF; i++) at[$i] = i - 1; next }
+            { lag = $at["lagging_J"]; if (lag < 0) lag = -lag; if (lag > most) most = lag }
+            END { taken = $at["coolant_J"]*8*0.002/$1; printf "at most %.2f, in the end %.1e of what flows in eight steps", most/taken, lag/taken
+                exit !(taken > 0 && most < 20*taken && lag < 0.5*taken) }' "$(folder coalCloud1)"/floor.heat.dat)" \
+            && ok "radiated/lag-$every ($said)" || bad "radiated/lag-$every" "$said"
+    done
+    cd "$work" || return
+    if [ -s radiated.1 ] && said="$(same_totals radiated.1 radiated.8 1e-3)"
+    then ok "radiated/same ($(head -n 1 radiated.1 | cut -d' ' -f2) K)"; else bad radiated/same "$said"; fi
+}
+
 # 400 hot parcels freeze on the cooled walls: 3 kg/m2/s, thirty times as much as in a boiler, so of a thirtieth of the heat. Under radiation the deposit insulates: its surface heats up, powder sinters and
 # melts, and gravity, which points up here, pulls off what the weaker faces of the floor cannot hold
 growing_box() { # folder

@@ -392,6 +392,15 @@ refused_return() {
     if quiet keep "$solver"; then bad returned/refused-keep "the run went through"
     elif tr -s ' \n' ' ' < log.keep | grep -q "Key 'parcels' of memory, shed.*Write stuck remove;"
     then ok returned/refused-keep; else bad returned/refused-keep "$(grep -A4 FATAL log.keep | tr '\n' ' ')"; fi
+    returning_box "$work/returned-resting" || return
+    sed -i 's/stuck remove;//; s/shed { parcels yes; }//' constant/interaction
+    settings 0.1 0.1 startTime ascii
+    solve returned resting "$solver" || return
+    sed -i 's/memory { /&shed { parcels yes; }/; 1i stuck remove;' constant/interaction
+    settings 0.2 0.1 latestTime ascii
+    if quiet rested "$solver"; then bad returned/refused-resting "the run went through"
+    elif tr -s ' \n' ' ' < log.rested | grep -q "kg, rest on the walls.*Write stuck remove;"
+    then ok returned/refused-resting; else bad returned/refused-resting "$(grep -A4 FATAL log.rested | tr '\n' ' ')"; fi
     build spray "$work/returned-spray" || return
     echo 'model "<constant>/nearWall.toml"; stuck remove; memory { shed { parcels yes; } } patches { outlet { type rebound; } }' > constant/interaction
     if quiet run "$solver"; then bad returned/refused-spray "the run went through"

@@ -23,7 +23,8 @@ case_ratio() {
     local models="${MODELS:-localInteraction dispersion nearWallNoMemory nearWall everything cooled together}"
     command -v python3 >/dev/null || { bad ratio "python3 is missing"; return; }
     mkdir -p "$state"; cp -r "$base/constant" "$base/system" "$state"; cp -r "$base/0.orig" "$state/0"
-    cp "$base/wallModels/nearWall" "$state/constant/wallInteraction"
+    # Parcels that rested would be in the deposit of `together` twice
+    sed 's/^    stuck .*/    stuck remove;/' "$base/wallModels/nearWall" > "$state/constant/wallInteraction"
     cd "$state" || return
     sed -i 's/^endTime .*/endTime 0.4;/; s/^writeInterval .*/writeInterval 0.4;/' system/controlDict
     quiet blockMesh blockMesh
