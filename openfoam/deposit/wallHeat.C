@@ -251,7 +251,10 @@ void Foam::nearWall::wallHeat::heat
 {
     const scalar coefficient = coefficient_[patchi][facei];
     // What lands carries no vapour
-    cooling.vapour_coefficient = cooling.gas_coefficient;
+    if (cooling.vapour_coefficient == 0)
+    {
+        cooling.vapour_coefficient = cooling.gas_coefficient;
+    }
     cooling.gas_coefficient += coefficient;
     cooling.further_flux +=
         given_[patchi][facei] - coefficient*cooling.gas_temperature;

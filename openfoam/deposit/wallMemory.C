@@ -383,7 +383,7 @@ void Foam::nearWall::wallMemory::refuseResting(const scalar mass) const
         << mass << " kg, rest on the walls. They are in the deposit, too, and"
         << " would come back from there as well." << nl
         << "    Write stuck remove; from the first time of the case on, or"
-        << " remove their cloud and its deposit from " << mesh_.time().timeName()
+        << " remove their cloud and its deposit from " << timeName(mesh_.time())
         << exit(FatalError);
 }
 

@@ -57,6 +57,7 @@ void refuseOtherKeys(const dictionary& dict, const string& owner)
         ({
             "Ta", "h", "thicknessLayers", "kappaLayers", "emissivity",
             "surroundingsTemperature", "qr", "alphat", "cloud", "relaxation", "vapour",
+            "bulkTemperature",
             "type", "value", "mode", "kappaMethod", "refValue", "refGradient",
             "refGrad", "valueFraction", "radiating", "patchType", "useImplicit",
             "source", "libs"
@@ -104,6 +105,20 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
     if (dict.found("surroundingsTemperature"))
     {
         surroundingsTemperature = readNumber(dict, "surroundingsTemperature");
+    }
+
+    if (dict.found("bulkTemperature"))
+    {
+        bulkTemperature = readNumber(dict, "bulkTemperature");
+        warnOfCelsius(bulkTemperature, owner + ": bulkTemperature");
+        if (vapour != "none")
+        {
+            FatalIOErrorInFunction(dict)
+                << owner.c_str() << ": 'vapour' and 'bulkTemperature' are both"
+                << " given." << nl << "    With a field of the vapour remove"
+                << " 'bulkTemperature': its cells have their own."
+                << exit(FatalIOError);
+        }
     }
 
     bool sound = thicknessLayers.size() == kappaLayers.size();
@@ -168,6 +183,7 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::write
     writeKey(os, "qr", qr);
     writeKey(os, "alphat", alphat);
     if (vapour != "none") writeKey(os, "vapour", vapour);
+    if (bulkTemperature > 0) writeKey(os, "bulkTemperature", bulkTemperature);
     if (!cloud.empty()) writeKey(os, "cloud", cloud);
     writeKey(os, "relaxation", relaxation);
 }
@@ -289,7 +305,8 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::gasCoefficient() const
 Foam::tmp<Foam::scalarField>
 Foam::nearWallDepositTemperatureFvPatchScalarField::fromGas() const
 {
-    return gasCoefficient()*(patchInternalField() - *this);
+    const scalarField& T = *this;
+    return gasCoefficient()*(patchInternalField() - T);
 }
 
 
@@ -300,10 +317,10 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::fromRadiation() const
     {
         return tmp<scalarField>(new scalarField(radiated()));
     }
+    const scalarField& T = *this;
     const scalar sigma = constant::physicoChemical::sigma.value();
     return
-        given_.emissivity*sigma
-       *(pow4(given_.surroundingsTemperature) - pow4(*this));
+        given_.emissivity*sigma*(pow4(given_.surroundingsTemperature) - pow4(T));
 }
 
 
@@ -344,6 +361,16 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
         c.void_temperature = gas[i];
         c.other_conductivity = here[i];
         c.other_temperature = T[i];
+    }
+    if (given_.bulkTemperature > 0)
+    {
+        // The heat flux from there, through the whole boundary layer
+        forAll(found, i)
+        {
+            const scalar apart = max(given_.bulkTemperature - T[i], SMALL);
+            found[i].vapour_coefficient =
+                max(conducted[i]*(gas[i] - T[i])/apart, VSMALL);
+        }
     }
     if (given_.vapour != "none")
     {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include "gasTurbulence.H"
-#include "gaussGrad.H"
+#include "linearGradient.H"
 
 void Foam::nearWall::gasTurbulence::read
 (
@@ -28,8 +28,7 @@ void Foam::nearWall::gasTurbulence::read
 
     // Linear whatever the schemes of the case: the walk needs the gradient of
     // the very field that it meets
-    const tmp<volVectorField> gradient(fv::gaussGrad<scalar>(mesh_).calcGrad(k, "grad(k)"));
-    const vectorField& slope = gradient();
+    const vectorField slope(linearGradient(k));
     const scalar leastShare = 0.7*Foam::pow(0.09, 0.25);
     cells_.setSize(mesh_.nCells());
     forAll(cells_, celli)

@@ -4,7 +4,7 @@
 #include "nearWallThermophoresis.H"
 #include "buildCheck.H"
 #include "dictionaryChecks.H"
-#include "gaussGrad.H"
+#include "linearGradient.H"
 #include "nearwall.h"
 
 template<class CloudType>
@@ -105,13 +105,12 @@ void Foam::nearWallThermophoresis<CloudType>::cacheFields(const bool store)
 {
     if (!store) return;
     const volScalarField& T = field(TName_);
-    const tmp<volVectorField> gradient
-    (
-        fv::gaussGrad<scalar>(this->mesh()).calcGrad(T, "grad(T)")
-    );
     gas_ = std::make_shared<const gasFields>
     (
-        gasFields{T, pressureField(), vectorField(gradient()), gasConductivity()}
+        gasFields
+        {
+            T, pressureField(), nearWall::linearGradient(T), gasConductivity()
+        }
     );
 }
 

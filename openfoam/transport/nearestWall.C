@@ -4,7 +4,7 @@
 #include "nearestWall.H"
 #include "FaceCellWave.H"
 #include "globalIndex.H"
-#include "wallPolyPatch.H"
+#include "wallFvPatch.H"
 
 namespace
 {
@@ -27,7 +27,7 @@ scalar radiusOf(const polyPatch& patch, const label facei)
 
 bool Foam::nearWall::nearestWall::isWall(const fvPatch& patch)
 {
-    return isA<wallPolyPatch>(patch.patch());
+    return isA<wallFvPatch>(patch);
 }
 
 
@@ -45,7 +45,7 @@ Foam::labelList Foam::nearWall::nearestWall::listOwn()
         {
             meshFaces.append(patch.start() + i);
             centres.append(patch.Cf()[i]);
-            radii.append(radiusOf(patch.patch(), i));
+            radii.append(radiusOf(patchesOf(mesh_)[patch.index()], i));
         }
     }
     centres_.transfer(centres);

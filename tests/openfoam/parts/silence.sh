@@ -32,6 +32,7 @@ case_cooled-keys() {
     cp 0/T T.good
     refuse_wall emisivity "$own cloud coalCloud1; emisivity 0.8; surroundingsTemperature 1200;" "unknown key 'emisivity'" "Patch 'floor' of T"
     refuse_wall both "$own cloud coalCloud1; qr qr; emissivity 0.8; surroundingsTemperature 1200;" "'qr' and 'emissivity' are both given" "Patch 'floor' of T"
+    refuse_wall vapour "$own cloud coalCloud1; vapour KCl; bulkTemperature 1200;" "'vapour' and 'bulkTemperature' are both given" "Patch 'floor' of T"
     refuse_wall no-field "$own cloud coalCloud1; qr Qr;" "Patch 'floor' of T, key 'qr': there is no field 'Qr'" "call theirs qr"
     refuse_wall no-cloud "$own cloud coalCloud7;" "key 'cloud': 'coalCloud7' leaves no deposit there" "(coalCloud1 limestoneCloud1)"
 }
