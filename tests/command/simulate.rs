@@ -100,6 +100,27 @@ fn a_particle_in_thick_still_gas_relaxes_exponentially() {
     }
 }
 
+/// A grain whose drag acts within a microsecond falls for ten seconds, which is far more steps than an explicit method
+/// may take: `z = -w (t - tau)`, `w = tau g (1 - rho_g/rho_p)`; and a droplet of that size freezes and takes on the
+/// temperature of the gas.
+#[test]
+fn the_finest_particles_fly_as_long_as_others() {
+    let case = case(&plane(STILL_AIR, ONE, "", ""));
+    let gravity = Vector3::new(0.0, 0.0, -9.81);
+    for range in [10.0, 0.0] {
+        let fusion = Fusion::new(150e3, 2000.0, 350.0, range);
+        let body = Body { heat_capacity: Some(2000.0), fusion: Some(fusion), ..body(2e-7, 2000.0) };
+        let motion = ParticleMotion { gas: &case.gas, gravity, body };
+        let tau = 2000.0 * 4e-14 / (18.0 * 1.8e-5);
+        let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::zeros(), fusion.sensible(400.0), 1.0);
+        let end = fly(&motion, &case.surfaces, 0.0, 10.0, &start, 1e-7).unwrap();
+        let settling = tau * 9.81 * (1.0 - 1.2 / 2000.0);
+        near(velocity(&end.state).z, -settling, 1e-4);
+        near(1.0 - position(&end.state).z, settling * (10.0 - tau), 1e-4);
+        near(body.temperature(&end.state), 300.0, 1e-5);
+    }
+}
+
 /// Falling wax in air settles where weight and the drag of Schiller and Naumann balance, and small grains at Stokes'
 /// velocity.
 #[test]

@@ -1,7 +1,9 @@
 //! A rig of whose case one number is wrong: the tutorial.
 
+use std::f64::consts::PI;
 use std::path::Path;
 
+use nearwall::transport::thermophoresis;
 use nearwall_lab::simulate::Case;
 use serde_json::Value;
 
@@ -49,4 +51,53 @@ fn stated_errors_change_no_simulation() {
     let place = wrong.lines().position(|line| line.starts_with("angel_deg")).unwrap() + 1;
     let message = read.unwrap_err().to_string();
     assert!(message.contains(&format!("case.toml:{place}:1")) && message.contains("angle_deg"), "{message}");
+}
+
+/// Soot of a micrometre between a cold and a hot plate, whose case knows no thermophoresis. Of particles that begin on a
+/// disc those below a height are caught: from `z` the way takes `(T(z)² - T(0)²)/(2 C' nu grad(T)²)`.
+#[test]
+fn thermophoresis_that_a_case_leaves_out_is_found() {
+    let [diameter, height, radius, time, total]: [f64; 5] = [1e-6, 2e-3, 0.9e-3, 1.0, 2000.0];
+    let knudsen = 2.0 * thermophoresis::mean_free_path(1.8e-5, 1.2, 101_325.0) / diameter;
+    let slip = 1.0 + knudsen * (1.257 + 0.4 * (-1.1_f64 / knudsen).exp());
+    let drift = thermophoresis::coefficient(knudsen, 0.026 / 0.5) * slip / (3.0 * PI) * 1.5e-5;
+    let captured = |difference: f64| {
+        let gradient = difference / height;
+        let reached = (300.0_f64.powi(2) + 2.0 * drift * time * gradient * gradient).sqrt();
+        // The part of the disc below that height.
+        let depth = (1.0 - ((reached - 300.0) / gradient - 0.5 * height) / -radius).clamp(0.0, 2.0);
+        let chord = 1.0 - depth;
+        (chord.acos() - chord * (1.0 - chord * chord).sqrt()) / PI
+    };
+    let mut data = String::from("experiment,gas.temperature.value,captured@cold,captured@cold_n\n");
+    for (run, difference) in [40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0].into_iter().enumerate() {
+        let share = (captured(difference) * total).round() / total;
+        data += &format!("run {run},\"[300, {}]\",{share},{total}\n", 300.0 + difference);
+    }
+    let plate = |name: &str, z: f64, up: f64, temperature: f64| {
+        format!(
+            "[[walls]]\nname = \"{name}\"\nshape = \"plane\"\npoint = [0, 0, {z}]\nnormal = [0, 0, {up}]\n\
+             temperature = {temperature}\n"
+        )
+    };
+    let case = format!(
+        "model = \"base.toml\"\n[run]\ntime_limit = {time}\ngravity = [0, 0, 0]\nhit_limit = 1\n[gas]\nfield = \"duct\"\n\
+         direction = [1, 0, 0]\nup = [0, 0, 1]\nheight = {height}\ncentre = [0, 0, 0.001]\nspeed = 0.1\n\
+         flow = \"laminar\"\ntemperature = {{ axis = \"z\", at = [0, {height}], value = [300, 400] }}\ndensity = 1.2\n\
+         viscosity = 1.8e-5\nheat_capacity = 1005\nconductivity = 0.026\n[particles]\ncount = 100\n\
+         position = {{ shape = \"disc\", center = [0, 0, 0.001], radius = {radius}, normal = [1, 0, 0] }}\n\
+         direction = [1, 0, 0]\nspeed = 0.1\ndiameter = {diameter}\ntemperature = 350\ndensity = 2000\n\
+         conductivity = 0.5\n{}{}",
+        plate("cold", 0.0, 1.0, 300.0),
+        plate("hot", height, -1.0, 400.0)
+    );
+    let base = "[particle]\nmaterial = \"fly-ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n[normal]\n\
+                model = \"thornton-ning\"\nyield_ratio = 1.6\n[tangential]\nmodel = \"constant\"\ne_t = 0\n";
+    let folder = folder(&[("case.toml", &case), ("base.toml", base), ("measured.csv", &data)]);
+    let said = done(folder.path(), &["diagnose", "measured.csv", "--case", "case.toml", "--out", "out"]);
+    let found: Value = serde_json::from_str(&text(&folder.path().join("out/diagnosis.json"))).unwrap();
+    assert_eq!(found["findings"][0]["cause"], "case:without-thermophoresis", "{data}{said}");
+    assert!(found["parties"]["case"].as_f64().unwrap() > 0.95, "{}", found["parties"]);
+    let extended = text(&folder.path().join("out/extended_case.toml"));
+    assert!(extended.contains("thermophoresis = true"), "{extended}");
 }
