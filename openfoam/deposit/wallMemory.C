@@ -784,20 +784,26 @@ nw_deposit_losses Foam::nearWall::wallMemory::advanceFace
 }
 
 
+Foam::List<nw_wall_cooling> Foam::nearWall::wallMemory::beginHeating
+(
+    const label patchi,
+    const scalar duration
+)
+{
+    const wallCooling* const cooling = cooled(patchi);
+    if (!cooling) return List<nw_wall_cooling>();
+
+    heat_.beginPatch(patchi, duration, acceleration_*cooling->answersAfter());
+    return cooling->heating();
+}
+
+
 void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
 {
     const label patchi = patches_[i];
     const scalarField& area = mesh_.magSf().boundaryField()[patchi];
-    const wallCooling* const cooling = cooled(patchi);
-    List<nw_wall_cooling> heating;
-    if (cooling)
-    {
-        heating = cooling->heating();
-        heat_.beginPatch
-        (
-            patchi, duration, acceleration_*cooling->answersAfter()
-        );
-    }
+    List<nw_wall_cooling> heating(beginHeating(patchi, duration));
+    const bool isCooled = heating.size() > 0;
     const patchSurroundings surroundings(*this, i);
     const bool gainsMass = acts(*model_, rules_[patchi].wall, bringsMass);
 
@@ -806,21 +812,19 @@ void Foam::nearWall::wallMemory::advance(const label i, const scalar duration)
     forAll(area, facei)
     {
         const bool isHit = captured_[patchi].count(facei) > 0;
-        if (!cooling && !isHit && !gainsMass && !fields_.holds(patchi, facei))
-        {
-            continue;
-        }
+        const bool changes = isCooled || isHit || gainsMass;
+        if (!changes && !fields_.holds(patchi, facei)) continue;
 
         nw_deposit d(deposit(patchi, facei));
         arrived += addCaptured(d, patchi, facei)*area[facei];
         const scalar slag = d.molten + d.frozen;
         if
         (
-            cooling || slag > 0 || gainsMass
+            isCooled || slag > 0 || gainsMass
          || (d.powder > 0 && surroundings.losesMass())
         )
         {
-            nw_wall_cooling* const by = cooling ? &heating[facei] : nullptr;
+            nw_wall_cooling* const by = isCooled ? &heating[facei] : nullptr;
             const nw_deposit_losses here
             (
                 advanceFace(surroundings, i, facei, by, duration, d)

@@ -106,21 +106,21 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
     {
         surroundingsTemperature = readNumber(dict, "surroundingsTemperature");
     }
-
     if (dict.found("bulkTemperature"))
     {
         bulkTemperature = readNumber(dict, "bulkTemperature");
         warnOfCelsius(bulkTemperature, owner + ": bulkTemperature");
-        if (vapour != "none")
-        {
-            FatalIOErrorInFunction(dict)
-                << owner.c_str() << ": 'vapour' and 'bulkTemperature' are both"
-                << " given." << nl << "    With a field of the vapour remove"
-                << " 'bulkTemperature': its cells have their own."
-                << exit(FatalIOError);
-        }
     }
+    checkWall(dict);
+    checkGas(dict, owner);
+}
 
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::checkWall
+(
+    const dictionary& dict
+) const
+{
     bool sound = thicknessLayers.size() == kappaLayers.size();
     for (const scalar l : thicknessLayers) sound = sound && l >= 0;
     for (const scalar k : kappaLayers) sound = sound && k > 0;
@@ -137,6 +137,15 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
             << "Nothing lies between coolant and deposit: give 'h' [W/m2/K], or"
             << " 'thicknessLayers' and 'kappaLayers'." << exit(FatalIOError);
     }
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::checkGas
+(
+    const dictionary& dict,
+    const string& owner
+) const
+{
     if ((emissivity > 0) != (surroundingsTemperature > 0))
     {
         FatalIOErrorInFunction(dict)
@@ -149,6 +158,14 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::settings::settings
             << owner.c_str() << ": 'qr' and 'emissivity' are both given, and the"
             << " wall would take up its radiation twice." << nl
             << "    Remove 'qr', or 'emissivity' and 'surroundingsTemperature'."
+            << exit(FatalIOError);
+    }
+    if (bulkTemperature > 0 && vapour != "none")
+    {
+        FatalIOErrorInFunction(dict)
+            << owner.c_str() << ": 'vapour' and 'bulkTemperature' are both"
+            << " given." << nl << "    With a field of the vapour remove"
+            << " 'bulkTemperature': its cells have their own."
             << exit(FatalIOError);
     }
 }
@@ -362,21 +379,7 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
         c.other_conductivity = here[i];
         c.other_temperature = T[i];
     }
-    if (given_.bulkTemperature > 0)
-    {
-        // The heat flux from there, through the whole boundary layer
-        forAll(found, i)
-        {
-            const scalar apart = max(given_.bulkTemperature - T[i], SMALL);
-            found[i].vapour_coefficient =
-                max(conducted[i]*(gas[i] - T[i])/apart, VSMALL);
-        }
-    }
-    if (given_.vapour != "none")
-    {
-        const scalarField vapour(vapourBeside());
-        forAll(found, i) found[i].vapour_fraction = max(vapour[i], scalar(0));
-    }
+    addVapour(found);
     if (given_.qr != "none")
     {
         const scalarField& qr = radiated();
@@ -391,6 +394,30 @@ Foam::nearWallDepositTemperatureFvPatchScalarField::heating() const
         }
     }
     return found;
+}
+
+
+void Foam::nearWallDepositTemperatureFvPatchScalarField::addVapour
+(
+    List<nw_wall_cooling>& faces
+) const
+{
+    if (given_.vapour != "none")
+    {
+        const scalarField vapour(vapourBeside());
+        forAll(faces, i) faces[i].vapour_fraction = max(vapour[i], scalar(0));
+    }
+    if (given_.bulkTemperature <= 0) return;
+
+    const scalarField& T = *this;
+    forAll(faces, i)
+    {
+        // The heat flux from there, through the whole boundary layer
+        nw_wall_cooling& c = faces[i];
+        const scalar flux = c.gas_coefficient*(c.gas_temperature - T[i]);
+        const scalar apart = max(given_.bulkTemperature - T[i], SMALL);
+        c.vapour_coefficient = max(flux/apart, VSMALL);
+    }
 }
 
 

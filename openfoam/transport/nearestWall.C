@@ -78,8 +78,21 @@ void Foam::nearWall::nearestWall::find()
         faceOf_[celli] = info.valid(unused) ? info.data() : -1;
     }
 
-    // The wave compares centres, which lie far apart on long faces: a cell at
-    // walls takes that one of its own faces whose plane is nearest
+    takeOwnFaces(meshFaces, numbers);
+    List<Map<label>> compact;
+    map_.reset(new DistributionMap(numbers, faceOf_, compact));
+    bring(centres_);
+    bring(normals_);
+    bring(radii_);
+}
+
+
+void Foam::nearWall::nearestWall::takeOwnFaces
+(
+    const labelList& meshFaces,
+    const globalIndex& numbers
+)
+{
     scalarField nearest(mesh_.nCells(), GREAT);
     forAll(meshFaces, i)
     {
@@ -91,10 +104,4 @@ void Foam::nearWall::nearestWall::find()
             faceOf_[celli] = numbers.toGlobal(i);
         }
     }
-
-    List<Map<label>> compact;
-    map_.reset(new DistributionMap(numbers, faceOf_, compact));
-    bring(centres_);
-    bring(normals_);
-    bring(radii_);
 }

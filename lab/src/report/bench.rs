@@ -100,6 +100,12 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> Str
     if sets.len() < count {
         text += &format!("  near the level or better in the {} others\n", count - sets.len());
     }
+    text + &shortfalls(ranges) + &reservations(entry)
+}
+
+/// Ranges of an input in which it falls short, a line each.
+fn shortfalls(ranges: &[Shortfall]) -> String {
+    let mut text = String::new();
     for Shortfall { input, unit, range: [low, high], readings, gain } in ranges.iter().take(RANGES) {
         let unit = if *unit == "1" { String::new() } else { format!(" {unit}") };
         let range = if low == high { number(*low) } else { format!("{} to {}", number(*low), number(*high)) };
@@ -108,6 +114,12 @@ fn failures(entry: &BenchmarkEntry, ranges: &[Shortfall], all_sets: bool) -> Str
             nats(*gain)
         );
     }
+    text
+}
+
+/// What its own bands hold, and what it does not decide.
+fn reservations(entry: &BenchmarkEntry) -> String {
+    let mut text = String::new();
     if let Some(coverage) = entry.own_coverage {
         text += &format!("  its own bands hold {} of the readings\n", percent(coverage));
     }

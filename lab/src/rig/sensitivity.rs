@@ -374,18 +374,7 @@ impl SensitivityCase {
             return Err(reason.clone());
         }
         let [(low, low_captures), (high, high_captures)] = ends.map(|end| end.unwrap_or_else(|_| unmoved()));
-        let wall = |(place, wall): (usize, &String)| {
-            let [low, middle, high] = [&low_captures, base, &high_captures].map(|one| one.mass_share(place));
-            WallEffect {
-                wall: wall.clone(),
-                captured_low: low,
-                captured: middle,
-                captured_high: high,
-                change: low.max(middle).max(high) - low.min(middle).min(high),
-                change_error: high_captures.error_of_difference(&low_captures, place),
-            }
-        };
-        let walls: Vec<WallEffect> = base.walls.iter().enumerate().map(wall).collect();
+        let walls = wall_effects([&low_captures, base, &high_captures]);
         Ok(NumberEffect {
             key: number.key.clone(),
             name: name_of(&number.key),
@@ -736,4 +725,21 @@ fn quality_range(key: &str, value: f64, assumed: bool) -> (Move, String) {
         }
         _ => (Move::Factor(factor), format!("factor {factor}")),
     }
+}
+/// What a number moves on each wall, from the captures at its low end, where it is, and at its high end.
+fn wall_effects([low, middle, high]: [&Captures; 3]) -> Vec<WallEffect> {
+    let of = |(place, wall): (usize, &String)| {
+        let shares = [low, middle, high].map(|one| one.mass_share(place));
+        let [captured_low, captured, captured_high] = shares;
+        let [least, most] = [f64::min, f64::max].map(|end| shares.into_iter().fold(captured, end));
+        WallEffect {
+            wall: wall.clone(),
+            captured_low,
+            captured,
+            captured_high,
+            change: most - least,
+            change_error: high.error_of_difference(low, place),
+        }
+    };
+    middle.walls.iter().enumerate().map(of).collect()
 }

@@ -119,8 +119,7 @@ impl Flight<'_> {
         loop {
             let left = until - solver.t();
             if left <= 1e-14 * until.abs() {
-                let end = FlightEnd { time: until, state: *solver.y(), surface: None };
-                return Ok(Flown::Finished(end));
+                return Ok(Flown::Finished(FlightEnd { time: until, state: *solver.y(), surface: None }));
             }
             if solver.h() > left {
                 solver.set_h(left);
@@ -141,8 +140,7 @@ impl Flight<'_> {
             stays.add(&step, &mut at, surfaces, &motion.body, end);
             if let Some(arrival) = arrival {
                 return Ok(Flown::Finished(arrival));
-            }
-            if !is_implicit && taken % LOOKED_AT == 0 && self.is_slow(&step) {
+            } else if !is_implicit && taken % LOOKED_AT == 0 && self.is_slow(&step) {
                 return Ok(Flown::Stiff(solver.t(), *solver.y()));
             }
         }

@@ -116,12 +116,17 @@ pub fn diagnose_rig(
     };
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
-    let moves = additions.iter().filter_map(|one| one.case_number());
-    let moves: Vec<(&CaseNumber, f64)> = moves.map(|(_, number, widths)| (number, widths)).collect();
-    let extended_case = case.filter(|_| !moves.is_empty()).map(|case| case.extended(&moves, "extended.toml"));
+    let extended_case = case.and_then(|case| extended_case(case, &additions));
     let found =
         report::RigFindings { study: &study, choice, refuted, held_out, text, extended_case, draws, next };
     Ok(found.record(data, options)?)
+}
+
+/// The text of the case with the numbers that were found wrong; `None` without such a number.
+fn extended_case(case: &CaseText, additions: &[RigAddition]) -> Option<String> {
+    let moves = additions.iter().filter_map(|one| one.case_number());
+    let moves: Vec<(&CaseNumber, f64)> = moves.map(|(_, number, widths)| (number, widths)).collect();
+    (!moves.is_empty()).then(|| case.extended(&moves, "extended.toml"))
 }
 
 /// Refuses too few readings, and a reach of something that is no number of the case.

@@ -149,20 +149,22 @@ pub(super) fn scatter(comparison: &RunComparison<'_>) -> Vec<Figure> {
         let [low, high] = extent(axis);
         let chart =
             Chart::new(&title, &format!("{name} [m]"), &y_label).points("", &points).x_range(low, high);
-        let [bottom, top] = extent(across);
-        let chart = if round {
-            chart.y_range(-180.0, 180.0).y_step(90.0)
-        } else if bottom < top {
-            let edges = round_edges(bottom, top, 5);
-            chart.y_range(edges[0], edges[edges.len() - 1]).y_step(edges[1] - edges[0])
-        } else {
-            chart
-        };
+        let chart =
+            if round { chart.y_range(-180.0, 180.0).y_step(90.0) } else { upright(chart, extent(across)) };
         let caption = format!("{} parcels, one point each; {view}.", points.len());
         chart.figure(&format!("places-{number}"), &caption)
     };
     let with_captures = comparison.each().enumerate().filter(|(_, (_, run))| !run.captures.is_empty());
     with_captures.map(figure).collect()
+}
+
+/// With a scale of round numbers over a range [m], if it has any width.
+fn upright(chart: Chart, [bottom, top]: [f64; 2]) -> Chart {
+    if bottom >= top {
+        return chart;
+    }
+    let edges = round_edges(bottom, top, 5);
+    chart.y_range(edges[0], edges[edges.len() - 1]).y_step(edges[1] - edges[0])
 }
 
 /// The direction in which captured parcels spread most: 0, 1, 2 for x, y, z.

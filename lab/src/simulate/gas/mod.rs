@@ -79,6 +79,15 @@ pub struct GasState {
     pub accommodation: f64,
 }
 
+/// Density, viscosity, conductivity and heat capacity.
+fn properties(section: &Section<'_>) -> Result<[Property; 4], InputError> {
+    let [density, viscosity, conductivity, heat_capacity] = GAS_PROPERTIES.map(|(key, unit)| {
+        let read = Property::read(section, key, &Limits::positive(unit))?;
+        read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
+    });
+    Ok([density?, viscosity?, conductivity?, heat_capacity?])
+}
+
 impl Gas {
     /// Reads a `[gas]` table.
     ///
@@ -99,11 +108,7 @@ impl Gas {
         };
         let temperature = LinearProfile::read(section, "temperature", 1.0, 1e5)?
             .ok_or_else(|| section.missing("temperature", "a temperature [K]"))?;
-        let [density, viscosity, conductivity, heat_capacity] = GAS_PROPERTIES.map(|(key, unit)| {
-            let read = Property::read(section, key, &Limits::positive(unit))?;
-            read.ok_or_else(|| section.missing(key, &format!("a number [{unit}] or a table over T")))
-        });
-        let properties = [density?, viscosity?, conductivity?, heat_capacity?];
+        let properties = properties(section)?;
         if name == "duct" {
             let [low, high] = temperature.extremes();
             let mean = 0.5 * (low + high);
