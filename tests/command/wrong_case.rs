@@ -101,3 +101,24 @@ fn thermophoresis_that_a_case_leaves_out_is_found() {
     let extended = text(&folder.path().join("out/extended_case.toml"));
     assert!(extended.contains("thermophoresis = true"), "{extended}");
 }
+
+/// Fly ash at room temperature, below which its stiffness is not known: what to measure next lies where it is.
+#[test]
+fn what_to_measure_next_stays_where_the_materials_are_known() {
+    let case = text(&Path::new(FOLDER).join("case.toml")).replace("value = 293,", "value = 294,");
+    let base = "[particle]\nmaterial = \"fly-ash\"\n[walls.default]\nmaterial = \"stainless-steel\"\n[normal]\n\
+                model = \"thornton-ning\"\nyield_ratio = 1.6\n[tangential]\nmodel = \"constant\"\ne_t = 0.8\n";
+    // With particles faster by 8 % than the case says.
+    let data = "particles.speed,mean_e_n@plate,mean_e_n@plate_err\n1,0.3809,0.004\n1.5,0.3631,0.004\n2,0.3596,0.004\n\
+                3,0.3404,0.004\n4,0.3258,0.004\n";
+    let folder = folder(&[("case.toml", &case), ("base.toml", base), ("measured.csv", data)]);
+    done(folder.path(), &["diagnose", "measured.csv", "--case", "case.toml", "--out", "out"]);
+    let next = text(&folder.path().join("out/next_experiments.csv"));
+    let table: Vec<Vec<&str>> = next.lines().map(|line| line.split(',').collect()).collect();
+    assert!(table.len() > 1, "{next}");
+    let temperatures = (0..table[0].len()).filter(|place| table[0][*place].contains("temperature"));
+    for place in temperatures {
+        let values = table[1..].iter().filter_map(|row| row[place].parse::<f64>().ok());
+        values.for_each(|value| assert!(value >= 293.15, "{next}"));
+    }
+}

@@ -119,9 +119,7 @@ fn run_simulated(arguments: &Arguments, case: &Path) -> CommandResult {
     let data = super::read_rig(&arguments.data)?;
     let text = CaseText::from_file(case)?;
     let rigs = RigCase::all(&text, &data)?;
-    let forward = SimulatedRig::new(&rigs)?;
-    let numbers: Vec<usize> = (0..forward.case_numbers().len()).collect();
-    let forward = forward.with_case_numbers(&numbers);
+    let forward = SimulatedRig::new(&rigs)?.with_told_numbers();
     let found = diagnosed(arguments, &forward, &data, text.model.text(), Some(&text))?;
     let source = RigSource::Case { file: &case.display().to_string(), number: &|key| text.number(key) };
     write_rig(arguments, &[case], source, &found)?;

@@ -6,12 +6,17 @@
 
 use super::tally::{PredictedReading, away_from_edges};
 
-/// Places of the number, in its standard errors: within three the instrument errs, beyond it is a mistake.
-pub(super) const PLACES: [f64; 6] = [-10.0, -6.0, -3.0, 3.0, 6.0, 10.0];
+/// Places of the number, in its standard errors: within three the instrument errs.
+pub(super) const NEAR: [f64; 2] = [-3.0, 3.0];
+/// Beyond it is a mistake.
+pub(super) const FAR: [f64; 4] = [-10.0, -6.0, 6.0, 10.0];
 /// Place of a force that the case leaves out, without which it is at 0.
 pub const PRESENT: f64 = 1.0;
 /// The farthest of them.
 pub const FARTHEST: f64 = 10.0;
+
+/// Predictions of all readings at a place of a number [standard errors].
+pub(super) type Moved = (f64, Vec<PredictedReading>);
 
 /// The changes of all readings of one experiment at places of a number.
 #[derive(Debug, Clone, Default)]
@@ -23,13 +28,9 @@ pub struct CaseChanges {
 }
 
 impl CaseChanges {
-    /// From the predictions at the case's own number and at other places of it, ascending. A reading
+    /// From the predictions at the case's own number and at other places of it. A reading
     /// that does not exist at a place, as a rebound where all are caught, changes no further.
-    pub(super) fn new(
-        shares: &[bool],
-        base: &[PredictedReading],
-        moved: Vec<(f64, Vec<PredictedReading>)>,
-    ) -> Self {
+    pub(super) fn new(shares: &[bool], base: &[PredictedReading], moved: &[Moved]) -> Self {
         let of = |predicted: &[PredictedReading]| -> Vec<f64> {
             let change = |((share, from), to): ((&bool, &PredictedReading), &PredictedReading)| {
                 scale(*share, to.value) - scale(*share, from.value)
@@ -53,8 +54,17 @@ impl CaseChanges {
         Self { at, changes }
     }
 
-    /// The change of every reading with the number moved by so many standard errors.
+    /// The change of every reading with the number moved by so many standard errors. Beyond the places it goes on as
+    /// in the last part.
     pub fn at(&self, widths: f64) -> Vec<f64> {
+        if let (Some(&first), Some(&last)) = (self.at.first(), self.at.last())
+            && self.at.len() > 2
+        {
+            let end = widths.clamp(first, last);
+            if end != widths {
+                return self.at(end).into_iter().map(|change| change * widths / end).collect();
+            }
+        }
         let count = self.at.len();
         if count < 2 {
             return self.changes.first().cloned().unwrap_or_default();
@@ -127,12 +137,15 @@ mod tests {
         let at = |widths: f64| {
             vec![reading(0.5 + 0.02 * widths), reading(if widths < -4.0 { f64::NAN } else { 0.3 })]
         };
-        let moved = PLACES.map(|widths| (widths, at(widths))).to_vec();
-        let changes = CaseChanges::new(&[false, true], &at(0.0), moved);
-        for widths in [-10.0, -4.5, 0.0, 1.0, 7.0] {
-            let found = changes.at(widths);
-            assert!((found[0] - 0.02 * widths).abs() < 1e-12, "{widths} {found:?}");
-            assert_eq!(found[1], 0.0);
+        let near = NEAR.map(|widths| (widths, at(widths))).to_vec();
+        let all = [near.clone(), FAR.map(|widths| (widths, at(widths))).to_vec()].concat();
+        for moved in [near, all] {
+            let changes = CaseChanges::new(&[false, true], &at(0.0), &moved);
+            for widths in [-10.0, -4.5, 0.0, 1.0, 7.0] {
+                let found = changes.at(widths);
+                assert!((found[0] - 0.02 * widths).abs() < 1e-12, "{widths} {found:?}");
+                assert_eq!(found[1], 0.0);
+            }
         }
         let share = changed(true, 0.3, 1.0);
         assert!((share / (1.0 - share) - std::f64::consts::E * 0.3 / 0.7).abs() < 1e-12);

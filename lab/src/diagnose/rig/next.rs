@@ -29,7 +29,7 @@ use super::proposals::proposals;
 use super::rig_search::FittedRig;
 use super::study::RigStudy;
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::rig::{CaseText, PredictionError, RigCase, SimulatedRig};
+use crate::rig::{CaseText, Forward, PredictionError, RigCase, SimulatedRig};
 
 /// Most explanations that are asked to be told apart.
 const MOST_SURVIVING: usize = 5;
@@ -149,9 +149,10 @@ pub(super) fn next_experiments(
     let moved = causes.iter().flat_map(|cause| &cause.states).flatten();
     let moved: BTreeSet<usize> = moved.filter_map(|one| Some(one.case_number()?.0)).collect();
     let moved: Vec<usize> = moved.into_iter().collect();
-    let forward = SimulatedRig::with_particles(&cases, PROPOSAL_PARTICLES)?.with_case_numbers(&moved);
+    let forward = SimulatedRig::of_proposals(&cases, PROPOSAL_PARTICLES).with_case_numbers(&moved);
+    let proposed = forward.experiments();
     let by_state = predict_states(&forward, &mut causes);
-    if causes.is_empty() || cases.is_empty() {
+    if causes.is_empty() || proposed.is_empty() {
         return Ok(Vec::new());
     }
     let possible = |index: usize| {
@@ -161,11 +162,11 @@ pub(super) fn next_experiments(
         let is_known = predicted.iter().all(|value| value.is_finite());
         is_known.then(|| Possible { place: [place, column], usual: columns[column].1, predicted, left })
     };
-    let options: Vec<Possible> = (0..cases.len() * columns.len()).filter_map(possible).collect();
+    let options: Vec<Possible> = (0..proposed.len() * columns.len()).filter_map(possible).collect();
     let ensemble = Ensemble::new(&causes);
     let row = |one: &Possible| {
         let [place, column] = one.place;
-        ensemble.row(one, &causes, cases[place].settings().to_vec(), &columns[column].0.column)
+        ensemble.row(one, &causes, proposed[place].settings.clone(), &columns[column].0.column)
     };
     Ok(ensemble.ranked(options).iter().map(row).collect())
 }
