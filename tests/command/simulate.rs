@@ -121,6 +121,21 @@ fn the_finest_particles_fly_as_long_as_others() {
     }
 }
 
+/// A flight may end at any time, also where it begins and where the method of integration changes.
+#[test]
+fn flights_of_any_duration_end() {
+    let case = case(&plane(STILL_AIR, ONE, "", ""));
+    let motion =
+        ParticleMotion { gas: &case.gas, gravity: Vector3::new(0.0, 0.0, -9.81), body: body(2e-7, 2000.0) };
+    let tau = 2000.0 * 4e-14 / (18.0 * 1.8e-5);
+    let start = state(&Vector3::new(0.0, 0.0, 1.0), &Vector3::new(1.0, 0.0, 0.0), 300.0, 1.0);
+    for tenths in 0..3000 {
+        let until = 0.1 * f64::from(tenths) * tau;
+        let end = fly(&motion, &case.surfaces, 0.0, until, &start, 1e-6).unwrap();
+        assert_eq!(end.time, until);
+    }
+}
+
 /// Falling wax in air settles where weight and the drag of Schiller and Naumann balance, and small grains at Stokes'
 /// velocity.
 #[test]

@@ -65,16 +65,15 @@ pub(super) fn fly_timed(
     tolerance: f64,
     stays: &mut StayTimes,
 ) -> Result<FlightEnd, SimulationError> {
-    let tolerances = absolute_tolerances(tolerance, &motion.body);
-    let explicit =
-        ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances.clone()).max_steps(STEP_LIMIT);
+    let tolerances = || absolute_tolerances(tolerance, &motion.body);
+    let explicit = ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
     let flight = Flight { motion, surfaces, until };
     let explicit = Method { solver: explicit, is_implicit: false };
     match flight.follow(explicit, time, start, stays)? {
         Flown::Finished(end) => Ok(end),
         Flown::Stiff(now, here) => {
             let implicit =
-                ImplicitRungeKutta::radau5().rtol(tolerance).atol(tolerances).max_steps(STEP_LIMIT);
+                ImplicitRungeKutta::radau5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
             let implicit = Method { solver: implicit, is_implicit: true };
             match flight.follow(implicit, now, &here, stays)? {
                 Flown::Finished(end) => Ok(end),
@@ -114,6 +113,10 @@ impl Flight<'_> {
         stays: &mut StayTimes,
     ) -> Result<Flown, SimulationError> {
         let &Self { motion, surfaces, until } = self;
+        if time >= until {
+            // An integration over no time is an error to the solver.
+            return Ok(Flown::Finished(FlightEnd { time, state: *start, surface: None }));
+        }
         solver.init(motion, time, until, start).map_err(|_| SimulationError::NotFinite)?;
         let (mut steps, mut taken) = (0, 0);
         loop {
