@@ -64,10 +64,9 @@ fn thermophoresis_that_a_case_leaves_out_is_found() {
     let captured = |difference: f64| {
         let gradient = difference / height;
         let reached = (300.0_f64.powi(2) + 2.0 * drift * time * gradient * gradient).sqrt();
-        // The part of the disc below that height.
-        let depth = (1.0 - ((reached - 300.0) / gradient - 0.5 * height) / -radius).clamp(0.0, 2.0);
-        let chord = 1.0 - depth;
-        (chord.acos() - chord * (1.0 - chord * chord).sqrt()) / PI
+        // The part of the disc below that height, which is so many radii above its centre.
+        let above = (((reached - 300.0) / gradient - 0.5 * height) / radius).clamp(-1.0, 1.0);
+        ((-above).acos() + above * (1.0 - above * above).sqrt()) / PI
     };
     let mut data = String::from("experiment,gas.temperature.value,captured@cold,captured@cold_n\n");
     for (run, difference) in [40.0, 60.0, 80.0, 100.0, 120.0, 140.0, 160.0].into_iter().enumerate() {

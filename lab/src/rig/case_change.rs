@@ -28,18 +28,21 @@ pub struct CaseChanges {
 }
 
 impl CaseChanges {
-    /// From the predictions at the case's own number and at other places of it. A reading
+    /// Adds further places, from the predictions at the case's own number and there. A reading
     /// that does not exist at a place, as a rebound where all are caught, changes no further.
-    pub(super) fn new(shares: &[bool], base: &[PredictedReading], moved: &[Moved]) -> Self {
+    pub(super) fn add(&mut self, shares: &[bool], base: &[PredictedReading], moved: &[Moved]) {
         let of = |predicted: &[PredictedReading]| -> Vec<f64> {
             let change = |((share, from), to): ((&bool, &PredictedReading), &PredictedReading)| {
                 scale(*share, to.value) - scale(*share, from.value)
             };
             shares.iter().zip(base).zip(predicted).map(change).collect()
         };
-        let mut all: Vec<(f64, Vec<f64>)> =
-            moved.iter().map(|(widths, predicted)| (*widths, of(predicted))).collect();
-        all.push((0.0, vec![0.0; shares.len()]));
+        if self.at.is_empty() {
+            (self.at, self.changes) = (vec![0.0], vec![vec![0.0; shares.len()]]);
+        }
+        let known = std::mem::take(&mut self.at).into_iter().zip(std::mem::take(&mut self.changes));
+        let mut all: Vec<(f64, Vec<f64>)> = known.collect();
+        all.extend(moved.iter().map(|(widths, predicted)| (*widths, of(predicted))));
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (at, mut changes): (Vec<f64>, Vec<Vec<f64>>) = all.into_iter().unzip();
         let middle = at.iter().position(|widths| *widths == 0.0).unwrap_or(0);
@@ -51,19 +54,17 @@ impl CaseChanges {
                 *one = known;
             }
         }
-        Self { at, changes }
+        (self.at, self.changes) = (at, changes);
     }
 
-    /// The change of every reading with the number moved by so many standard errors. Beyond the places it goes on as
-    /// in the last part.
+    /// The change of every reading with the number moved by so many standard errors; in proportion to them beyond the
+    /// places.
     pub fn at(&self, widths: f64) -> Vec<f64> {
-        if let (Some(&first), Some(&last)) = (self.at.first(), self.at.last())
-            && self.at.len() > 2
+        if let [first, _, .., last] = self.at[..]
+            && !(first..=last).contains(&widths)
         {
             let end = widths.clamp(first, last);
-            if end != widths {
-                return self.at(end).into_iter().map(|change| change * widths / end).collect();
-            }
+            return self.at(end).into_iter().map(|change| change * widths / end).collect();
         }
         let count = self.at.len();
         if count < 2 {
@@ -137,10 +138,10 @@ mod tests {
         let at = |widths: f64| {
             vec![reading(0.5 + 0.02 * widths), reading(if widths < -4.0 { f64::NAN } else { 0.3 })]
         };
-        let near = NEAR.map(|widths| (widths, at(widths))).to_vec();
-        let all = [near.clone(), FAR.map(|widths| (widths, at(widths))).to_vec()].concat();
-        for moved in [near, all] {
-            let changes = CaseChanges::new(&[false, true], &at(0.0), &moved);
+        let mut changes = CaseChanges::default();
+        for places in [&NEAR[..], &FAR[..]] {
+            let moved: Vec<Moved> = places.iter().map(|widths| (*widths, at(*widths))).collect();
+            changes.add(&[false, true], &at(0.0), &moved);
             for widths in [-10.0, -4.5, 0.0, 1.0, 7.0] {
                 let found = changes.at(widths);
                 assert!((found[0] - 0.02 * widths).abs() < 1e-12, "{widths} {found:?}");

@@ -726,12 +726,13 @@ fn quality_range(key: &str, value: f64, assumed: bool) -> (Move, String) {
         _ => (Move::Factor(factor), format!("factor {factor}")),
     }
 }
+
 /// What a number moves on each wall, from the captures at its low end, where it is, and at its high end.
 fn wall_effects([low, middle, high]: [&Captures; 3]) -> Vec<WallEffect> {
     let of = |(place, wall): (usize, &String)| {
-        let shares = [low, middle, high].map(|one| one.mass_share(place));
-        let [captured_low, captured, captured_high] = shares;
-        let [least, most] = [f64::min, f64::max].map(|end| shares.into_iter().fold(captured, end));
+        let [captured_low, captured, captured_high] = [low, middle, high].map(|one| one.mass_share(place));
+        let most = captured_low.max(captured).max(captured_high);
+        let least = captured_low.min(captured).min(captured_high);
         WallEffect {
             wall: wall.clone(),
             captured_low,

@@ -88,9 +88,8 @@ struct Paths<'a> {
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
     base: Vec<[PredictedReading; 2]>,
-    /// What the base law gives with the particles that numbers of the case are moved with, and what it gives then.
+    /// What it gives with the particles with which numbers of the case are moved.
     unmoved: Vec<PredictedReading>,
-    moved: Vec<Vec<Moved>>,
     /// What each number of the case changes, once that was computed.
     changes: Vec<CaseChanges>,
 }
@@ -115,8 +114,8 @@ const SMALL_VARIANCE: f64 = 0.1;
 const BASE_PARTICLES: u64 = 8;
 /// Most flights of an experiment that are kept [1]: some 50 MB.
 const KEPT_FLIGHTS: u64 = 50_000;
-/// Fall of the squared residuals, along what a number changes, from which on the readings speak for it [1]: of one that
-/// is right it is more in a sixth of cases.
+/// Fall of the sum of squared residuals by a move of a number, from which on the readings speak for it [1]: a right
+/// number exceeds it in a sixth of cases.
 const TOLD: f64 = 2.0;
 /// Standard error of a reading that states none [1].
 const USUAL_ERROR: f64 = 0.02;
@@ -148,8 +147,7 @@ impl<'a> SimulatedRig<'a> {
     /// Computes what numbers of the case change, by their places: until then they change nothing.
     #[must_use]
     pub fn with_case_numbers(mut self, places: &[usize]) -> Self {
-        self.add_changes(places, &NEAR);
-        self.add_changes(places, &FAR);
+        self.add_changes(places, &[&NEAR[..], &FAR[..]].concat());
         self
     }
 
@@ -159,7 +157,9 @@ impl<'a> SimulatedRig<'a> {
     pub fn with_told_numbers(mut self) -> Self {
         let all: Vec<usize> = (0..self.numbers.len()).collect();
         self.add_changes(&all, &NEAR);
-        let told: Vec<usize> = all.into_iter().filter(|number| self.is_told(*number)).collect();
+        let is_told =
+            |number: &usize| self.numbers[*number].missing_force().is_none() && self.is_told(*number);
+        let told: Vec<usize> = all.into_iter().filter(is_told).collect();
         self.add_changes(&told, &FAR);
         self
     }
@@ -238,8 +238,7 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
-        let (base, unmoved, moved, changes) = Default::default();
-        Ok(Self { rig, walls, blocks, base, unmoved, moved, changes })
+        Ok(Self { rig, walls, blocks, base: Vec::new(), unmoved: Vec::new(), changes: Vec::new() })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -262,13 +261,9 @@ impl<'a> Paths<'a> {
             self.unmoved = self.exactly(case, particles);
         }
         let shares: Vec<bool> = experiment.readings.iter().map(|one| one.quantity.is_share()).collect();
-        self.moved.resize(numbers.len(), Vec::new());
         self.changes.resize(numbers.len(), CaseChanges::default());
         for number in places.iter().copied() {
             let is_force = numbers[number].missing_force().is_some();
-            if is_force && !self.moved[number].is_empty() {
-                continue;
-            }
             let at = |widths: f64| {
                 // A number that the case refuses is none that was.
                 let moved = (&numbers[number], widths);
@@ -278,8 +273,7 @@ impl<'a> Paths<'a> {
             };
             let places = if is_force { &[PRESENT][..] } else { widths };
             let moved: Vec<Moved> = places.into_par_iter().copied().filter_map(at).collect();
-            self.moved[number].extend(moved);
-            self.changes[number] = CaseChanges::new(&shares, &self.unmoved, &self.moved[number]);
+            self.changes[number].add(&shares, &self.unmoved, &moved);
         }
     }
 
