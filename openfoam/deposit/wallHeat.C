@@ -24,9 +24,9 @@ const wordList names
 const scalar smoothedParcels = 20;
 
 
-//- In so many of the times after which gas and radiation answer, the lag passes
-//  on: over an insulated wall, which takes always the same, lag' = lag - (lag
-//  before)/lagTimes. With 4 it halves in each step; with 1 it oscillates for ever
+//- The lag passes on over so many times after which gas and radiation answer.
+//  Over an insulated wall, which always takes the same heat, lag' = lag - (lag
+//  before)/lagTimes: with 4 it soon halves in each step, with 1 it swings for ever
 const scalar lagTimes = 4;
 
 

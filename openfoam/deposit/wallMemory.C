@@ -380,10 +380,10 @@ void Foam::nearWall::wallMemory::refuseResting(const scalar mass) const
 
     FatalErrorInFunction
         << "Key 'parcels' of memory, shed: stuck parcels of an earlier run, "
-        << mass << " kg, rest on the walls. They are in the deposit, too, and"
-        << " would come back from there as well." << nl
-        << "    Write stuck remove; from the first time of the case on, or"
-        << " remove their cloud and its deposit from " << timeName(mesh_.time())
+        << mass << " kg, rest on the walls. The deposit holds their mass, too,"
+        << " and would give it back a second time." << nl
+        << "    Write stuck remove; and start the case anew, or remove the"
+        << " clouds and the deposit from " << timeName(mesh_.time())
         << exit(FatalError);
 }
 

@@ -164,8 +164,8 @@ void Foam::nearWallDepositTemperatureFvPatchScalarField::settings::checkGas
     {
         FatalIOErrorInFunction(dict)
             << owner.c_str() << ": 'vapour' and 'bulkTemperature' are both"
-            << " given." << nl << "    With a field of the vapour remove"
-            << " 'bulkTemperature': its cells have their own."
+            << " given." << nl << "    Remove 'bulkTemperature': the field has"
+            << " the vapour of each cell."
             << exit(FatalIOError);
     }
 }

@@ -26,8 +26,7 @@ void Foam::nearWall::gasTurbulence::read
         )
     );
 
-    // Linear whatever the schemes of the case: the walk needs the gradient of
-    // the very field that it meets
+    // The walk needs the gradient of the very field that it meets
     const vectorField slope(linearGradient(k));
     const scalar leastShare = 0.7*Foam::pow(0.09, 0.25);
     cells_.setSize(mesh_.nCells());

@@ -69,7 +69,7 @@ case_radiated() {
                 constantAbsorptionEmissionCoeffs { absorptivity absorptivity [0 -1 0 0 0 0 0] 0.3; emissivity emissivity [0 -1 0 0 0 0 0] 0.3; E E [1 -1 -3 0 0 0 0] 0; }"
         } > constant/radiationProperties
         { header dictionary boundaryRadiationProperties
-          echo '".*" { mode lookup; emissivity 1; absorptivity 1; transmissivity 0; }'
+          echo '".*" { type lookup; emissivity 1; absorptivity 1; transmissivity 0; }'
         } > constant/boundaryRadiationProperties
         settings 0.8 0.8 startTime ascii
         solve radiated "every-$every" "$solver" || return
