@@ -110,8 +110,21 @@ impl WallLayer {
     pub(super) fn fluctuations(&self, core: Option<&Core>) -> Fluctuations {
         let (plus, speed) = (self.distance_plus(), self.friction_velocity);
         let (length, time) = (self.kinematic_viscosity / speed, self.kinematic_viscosity / (speed * speed));
-        let [core_share, growth] = blend(plus);
         let far = core.map_or(speed, |core| core.fluctuation);
+        let near = time * time_plus(plus);
+        if !self.reaches() {
+            let (normal_gradient, shape_gradient, shape) = (0.0, [0.0; 2], [1.0, 0.0]);
+            let time_scale = core.map_or(near, |core| core.time_scale);
+            return Fluctuations {
+                deviations: [far; 3],
+                normal_gradient,
+                shape,
+                shape_gradient,
+                core_share: 1.0,
+                time_scale,
+            };
+        }
+        let [core_share, growth] = blend(plus);
         let mixed = |near: f64| near + core_share * (far - near);
         let [normal, slope] = normal_deviation(plus);
         let deviations = [
@@ -120,7 +133,6 @@ impl WallLayer {
             mixed(speed * spanwise_deviation(plus)),
         ];
         let normal_gradient = ((1.0 - core_share) * speed * slope + growth * (far - speed * normal)) / length;
-        let near = time * time_plus(plus);
         let time_scale = near + core_share * (core.map_or(near, |core| core.time_scale) - near);
         let [shape, slope] = normal_shape(plus);
         let shape_gradient = slope.map(|slope| slope / length);

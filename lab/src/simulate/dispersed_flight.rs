@@ -8,10 +8,10 @@
 //! `c = v_0 - d_0 + s/b`.
 //!
 //! `d_1` is taken where a constant drive would lead (Heun). A step is halved while response or drive change by more
-//! than a twentieth, and displace the particle by more than a hundredth of its diameter; it is at most a
-//! fifth of the Lagrangian time ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement;
-//! whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number
-//! of the particle and its step alone.
+//! than a twentieth, and displace the particle by more than a hundredth of its diameter; it is no longer than the walk
+//! may be taken as constant ([`nearwall::transport::langevin`]). Brownian motion adds its exact displacement; whether it
+//! touched a wall within a step is drawn from the Brownian bridge. All draws depend on the seed, the number of the
+//! particle and its step alone.
 
 use nalgebra::Vector3;
 
@@ -19,11 +19,9 @@ use super::drag;
 use super::error::SimulationError;
 use super::flight::{FlightEnd, NEAR, Step, contact};
 use super::gas::GasState;
-use super::motion::{
-    CONVERSION, ParticleMotion, ParticleState, Rates, TEMPERATURE, position, state, velocity,
-};
+use super::motion::{CONVERSION, ParticleMotion, ParticleState, TEMPERATURE, position, state, velocity};
 use super::near_wall::StayTimes;
-use super::surface::{Surface, SurfaceKind};
+use super::surface::{Surface, SurfaceKind, SurfaceShape};
 use nearwall::rng::ImpactRng;
 use nearwall::transport::GasTurbulence;
 use nearwall::transport::brownian::BrownianStep;
@@ -84,13 +82,21 @@ pub(super) struct Dispersed<'a> {
     pub conductivity: f64,
 }
 
-/// The gas at a place and what it does to a particle there.
+/// The gas at a place: its mean, and its turbulence.
+#[derive(Clone, Copy)]
 struct Place {
     gas: GasState,
     turbulence: Option<GasTurbulence>,
-    rates: Rates,
-    /// Acceleration of weight and thermophoresis [m/s²].
-    pushed: Vector3<f64>,
+}
+
+impl Place {
+    /// The gas with its fluctuation.
+    fn with_fluctuation(mut self, walk: &Walk) -> GasState {
+        if let Some(turbulence) = &self.turbulence {
+            self.gas.velocity += Vector3::from(turbulence.velocity(walk.values));
+        }
+        self.gas
+    }
 }
 
 /// A path under a drive that changes linearly.
@@ -124,6 +130,14 @@ impl Path {
         let converted = (self.start[CONVERSION] + conversion * time).min(self.start[CONVERSION].max(1.0));
         state(&place, &speed, self.start[TEMPERATURE] + heating * warmed, converted)
     }
+
+    /// How far [m] it can lead towards a surface: the velocity stays between that at the start and the drive.
+    fn reach(&self, shape: &SurfaceShape) -> f64 {
+        let [drive, change] = self.drive;
+        let speeds = [velocity(&self.start), drive, drive + change * self.duration];
+        let fastest = speeds.iter().map(|speed| shape.closing(speed)).fold(0.0, f64::max);
+        fastest * self.duration + shape.closing(&self.brownian[0])
+    }
 }
 
 impl Dispersed<'_> {
@@ -136,11 +150,11 @@ impl Dispersed<'_> {
         stays: &mut StayTimes,
     ) -> Result<FlightEnd, SimulationError> {
         let (mut here, mut longest) = (*start, (until - now) / FEWEST_STEPS);
+        let mut place = self.place(start);
         for _ in 0..STEP_LIMIT {
             if until - now <= 1e-14 * until.abs() {
                 return Ok(FlightEnd { time: until, state: here, surface: None });
             }
-            let place = self.place(&here, walk);
             let mut path = self.path(&here, &place, longest.min(until - now), walk);
             let spread = self.add_brownian(&mut path, &place, walk);
             longest = (2.0 * path.duration).min(until / FEWEST_STEPS);
@@ -149,11 +163,13 @@ impl Dispersed<'_> {
                 return Err(SimulationError::NotFinite);
             }
             let mut at = |time| path.at(time - now);
-            let touched = contact(&step, &mut at, self.surfaces, &self.motion.body)
+            let reach = |shape: &SurfaceShape| path.reach(shape);
+            let touched = contact(&step, &mut at, reach, self.surfaces, &self.motion.body)
                 .or_else(|| spread.and_then(|spread| self.bridge(&step, &path, &spread, walk)));
             let (time, after) = touched.map_or_else(|| step.end(), |end| (end.time, end.state));
             stays.add(&step, &mut at, self.surfaces, &self.motion.body, (time, after));
-            self.advance(walk, &after, time - now);
+            place = self.place(&after);
+            self.advance(walk, &after, &place, time - now);
             if let Some(end) = touched {
                 return Ok(end);
             }
@@ -162,17 +178,17 @@ impl Dispersed<'_> {
         Err(SimulationError::TooManySteps(STEP_LIMIT))
     }
 
-    /// The gas and the drive at a state.
-    fn place(&self, here: &ParticleState, walk: &Walk) -> Place {
-        let (motion, at) = (self.motion, position(here));
-        let mut gas = motion.gas.at(&at);
-        let turbulence = motion.gas.turbulence.and_then(|law| law.at(self.surfaces, &at, &gas));
-        if let Some(turbulence) = &turbulence {
-            gas.velocity += Vector3::from(turbulence.velocity(walk.values));
-        }
-        let rates = motion.rates(here, &gas);
-        let pushed = rates.weight + self.thermophoresis(here, &gas);
-        Place { gas, turbulence, rates, pushed }
+    /// The gas where a particle is.
+    fn place(&self, here: &ParticleState) -> Place {
+        let (field, at) = (self.motion.gas, position(here));
+        let gas = field.at(&at);
+        let turbulence = field.turbulence.and_then(|law| law.at(self.surfaces, &at, &gas));
+        Place { gas, turbulence }
+    }
+
+    /// Acceleration of weight and thermophoresis [m/s²].
+    fn push(&self, here: &ParticleState, gas: &GasState) -> Vector3<f64> {
+        self.motion.weight(here, gas) + self.thermophoresis(here, gas)
     }
 
     /// Acceleration by thermophoresis [m/s²].
@@ -191,9 +207,10 @@ impl Dispersed<'_> {
     /// The path from a state, at most `longest` [s] long.
     fn path(&self, here: &ParticleState, place: &Place, longest: f64, walk: &Walk) -> Path {
         let lasting = place.turbulence.map_or(f64::INFINITY, |turbulence| turbulence.longest_step());
-        let body = &self.motion.body;
-        let rates = &place.rates;
-        let begin = place.gas.velocity + place.pushed / rates.response;
+        let (motion, body) = (self.motion, &self.motion.body);
+        let gas = place.with_fluctuation(walk);
+        let rates = motion.rates(here, &gas);
+        let begin = gas.velocity + self.push(here, &gas) / rates.response;
         let mut path = Path {
             start: *here,
             drive: [begin, Vector3::zeros()],
@@ -203,14 +220,15 @@ impl Dispersed<'_> {
             duration: longest.min(lasting),
         };
         for _ in 0..HALVINGS {
-            let end = self.place(&path.at(path.duration), walk);
-            let drive = end.gas.velocity + end.pushed / rates.response;
+            let end = path.at(path.duration);
+            let gas = self.place(&end).with_fluctuation(walk);
+            let drive = gas.velocity + self.push(&end, &gas) / rates.response;
             let change = drive - begin;
             let moved = 0.5 * change.norm() * path.duration;
             let is_even = change.norm() <= LARGEST_CHANGE * drive.norm().max(begin.norm());
             path.drive[1] = change / path.duration;
             // The slip of the first guess would be that of a particle that has not followed the gas.
-            let response = self.motion.rates(&path.at(path.duration), &end.gas).response;
+            let (_, response) = motion.response(&path.at(path.duration), &gas);
             let (turned, slip) =
                 ((response - rates.response).abs(), (begin - velocity(here)).norm() + change.norm());
             let deflected = 0.5 * turned * slip * path.duration * path.duration;
@@ -273,16 +291,13 @@ impl Dispersed<'_> {
         None
     }
 
-    /// Takes the walk on by a step that ended at a state.
-    fn advance(&self, walk: &mut Walk, after: &ParticleState, duration: f64) {
-        let motion = self.motion;
-        let (at, conversion) = (position(after), after[CONVERSION]);
-        let gas = motion.gas.at(&at);
-        if let Some(turbulence) = motion.gas.turbulence.and_then(|law| law.at(self.surfaces, &at, &gas)) {
-            let (diameter, density) =
-                (motion.body.diameter_at(conversion), motion.body.density_at(conversion));
-            let slip = drag::slip_factor(gas.mean_free_path, diameter);
-            let relaxation = slip / drag::response_rate(0.0, gas.viscosity, density, diameter);
+    /// Takes the walk on by a step that ended at a state, in this place.
+    fn advance(&self, walk: &mut Walk, after: &ParticleState, place: &Place, duration: f64) {
+        let (body, conversion) = (&self.motion.body, after[CONVERSION]);
+        if let Some(turbulence) = &place.turbulence {
+            let (diameter, density) = (body.diameter_at(conversion), body.density_at(conversion));
+            let slip = drag::slip_factor(place.gas.mean_free_path, diameter);
+            let relaxation = slip / drag::response_rate(0.0, place.gas.viscosity, density, diameter);
             walk.values = turbulence.advance(walk.values, relaxation, duration, walk.draws(0));
         }
         walk.steps += 1;

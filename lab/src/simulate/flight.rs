@@ -13,7 +13,7 @@ use super::motion::{
     Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, PathSolver, position, reach,
 };
 use super::near_wall::StayTimes;
-use super::surface::Surface;
+use super::surface::{Surface, SurfaceShape};
 
 /// End of a flight.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -138,7 +138,9 @@ impl Flight<'_> {
             }
             let step = Step { times: [solver.t_prev(), solver.t()], states: [*solver.y_prev(), *solver.y()] };
             let mut at = |time| solver.interpolate(time).unwrap_or(step.states[1]);
-            let arrival = contact(&step, &mut at, surfaces, &motion.body);
+            let ([from, to], [before, after]) = (step.times, step.states);
+            let reach = |_: &SurfaceShape| reach(to - from, &before, &after);
+            let arrival = contact(&step, &mut at, reach, surfaces, &motion.body);
             let end = arrival.map_or_else(|| step.end(), |end| (end.time, end.state));
             stays.add(&step, &mut at, surfaces, &motion.body, end);
             if let Some(arrival) = arrival {
@@ -203,21 +205,20 @@ impl Step {
     }
 }
 
-/// The first contact in a step; `at` gives the states in it.
+/// The first contact in a step; `at` gives the states in it, `reach` how far [m] it can lead towards a surface.
 pub(super) fn contact(
     step: &Step,
     at: &mut impl FnMut(f64) -> ParticleState,
+    reach: impl Fn(&SurfaceShape) -> f64,
     surfaces: &[Surface],
     body: &Body,
 ) -> Option<FlightEnd> {
-    let ([from, to], [before, after]) = (step.times, step.states);
-    let reach = reach(to - from, &before, &after);
     let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
         let gap = |state: &ParticleState| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
-        let at_start = gap(&before);
+        let at_start = gap(&step.states[0]);
         // Rounding may leave a particle that has just rebounded a hair behind the wall.
-        if at_start > reach || at_start < -1e-6 * body.diameter {
+        if at_start > reach(&surface.shape) || at_start < -1e-6 * body.diameter {
             continue;
         }
         if let Some(arrival) = crossing(at, &gap, NEAR * body.diameter, step)

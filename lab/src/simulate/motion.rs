@@ -129,16 +129,27 @@ pub(super) struct Rates {
 }
 
 impl ParticleMotion<'_> {
+    /// Acceleration of weight and buoyancy [m/s²] in a gas.
+    pub(super) fn weight(&self, y: &ParticleState, gas: &GasState) -> Vector3<f64> {
+        self.gravity * (1.0 - gas.density / self.body.density_at(y[CONVERSION]))
+    }
+
+    /// Reynolds number [1] of a particle in a gas, and the rate [1/s] at which it takes on the velocity of the gas.
+    pub(super) fn response(&self, y: &ParticleState, gas: &GasState) -> (f64, f64) {
+        let diameter = self.body.diameter_at(y[CONVERSION]);
+        let reynolds = gas.density * (gas.velocity - velocity(y)).norm() * diameter / gas.viscosity;
+        let density = self.body.density_at(y[CONVERSION]);
+        let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
+            / drag::slip_factor(gas.mean_free_path, diameter);
+        (reynolds, response)
+    }
+
     /// What acts on a particle in a gas.
     pub(super) fn rates(&self, y: &ParticleState, gas: &GasState) -> Rates {
         let body = &self.body;
         let (temperature, conversion) = (body.temperature(y), y[CONVERSION]);
         let diameter = body.diameter_at(conversion);
-        let slip = gas.velocity - velocity(y);
-        let reynolds = gas.density * slip.norm() * diameter / gas.viscosity;
-        let density = body.density_at(conversion);
-        let response = drag::response_rate(reynolds, gas.viscosity, density, diameter)
-            / drag::slip_factor(gas.mean_free_path, diameter);
+        let (reynolds, response) = self.response(y, gas);
         let [heating, exchange] = body.heat_capacity.map_or([0.0; 2], |capacity| {
             let prandtl = gas.heat_capacity * gas.viscosity / gas.conductivity;
             let dense = heating::nusselt(reynolds, prandtl);
@@ -154,7 +165,7 @@ impl ParticleMotion<'_> {
         });
         Rates {
             response,
-            weight: self.gravity * (1.0 - gas.density / density),
+            weight: self.weight(y, gas),
             heating,
             exchange,
             conversion: body.burning.rate(temperature, conversion),

@@ -62,6 +62,14 @@ impl SurfaceShape {
         }
     }
 
+    /// The most by which the distance from the surface changes along a vector, in its unit.
+    pub fn closing(&self, vector: &Vector3<f64>) -> f64 {
+        match self {
+            Self::Plane { normal, .. } => normal.dot(vector).abs(),
+            Self::Pipe { .. } => vector.xy().norm(),
+        }
+    }
+
     /// Direction into the gas at a point near the surface, of length 1.
     pub fn normal(&self, position: &Vector3<f64>) -> Vector3<f64> {
         match self {

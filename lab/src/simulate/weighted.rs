@@ -32,6 +32,8 @@ const LEAST_FOLLOWED_SHARE: f64 = 1e-3;
 
 /// Widths of a cell of `ln e_n`, of `e_t` and of the spin over that of rolling with the arriving speed [1].
 const CELL_WIDTHS: [f64; 3] = [0.15, 0.15, 0.5];
+/// Times as wide in a gas with random motion: its noise hides smaller differences (assumed).
+const WIDER: f64 = 3.0;
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_FOLLOWED_HITS: u64 = 40;
 /// Most flights of a particle that are kept, in a sample of a case.
@@ -175,15 +177,15 @@ impl<'a> PathTree<'a> {
 
     /// The cell of an outcome, and the outcome in its middle.
     fn cell(&self, impact: &Impact, outcome: &Outcome) -> (OutcomeCell, Outcome) {
+        let wider = if self.case.gas.is_random() { WIDER } else { 1.0 };
+        let widths = CELL_WIDTHS.map(|width| wider * width);
         let rolling = 2.0 * impact.tangential_speed / impact.diameter;
         let spin = if rolling > 0.0 { outcome.spin / rolling } else { 0.0 };
         let values = [outcome.normal_restitution.ln(), outcome.tangential_restitution, spin];
-        let cell: OutcomeCell = std::array::from_fn(|which| {
-            (values[which] / CELL_WIDTHS[which] + self.shift[which]).floor() as i32
-        });
-        let [normal_restitution, tangential_restitution, spin] = std::array::from_fn(|which| {
-            (f64::from(cell[which]) + 0.5 - self.shift[which]) * CELL_WIDTHS[which]
-        });
+        let cell: OutcomeCell =
+            std::array::from_fn(|which| (values[which] / widths[which] + self.shift[which]).floor() as i32);
+        let [normal_restitution, tangential_restitution, spin] =
+            std::array::from_fn(|which| (f64::from(cell[which]) + 0.5 - self.shift[which]) * widths[which]);
         let middle = Outcome {
             normal_restitution: normal_restitution.exp(),
             tangential_restitution: tangential_restitution.max(0.0),

@@ -160,9 +160,14 @@ impl Gas {
         self.temperature.gradient(position)
     }
 
+    /// Whether it pushes particles at random.
+    pub fn is_random(&self) -> bool {
+        self.turbulence.is_some() || self.brownian
+    }
+
     /// Whether particles leave the path that the mean flow and their inertia give them.
     pub fn disperses(&self) -> bool {
-        self.turbulence.is_some() || self.thermophoresis || self.brownian
+        self.is_random() || self.thermophoresis
     }
 
     /// The gas in the voids of a deposit at a position [m] of a wall with a coolant temperature [K]: through
