@@ -15,6 +15,16 @@ pub const PRESENT: f64 = 1.0;
 /// The farthest of them.
 pub const FARTHEST: f64 = 10.0;
 
+/// The places that tell what a number changes from the least to the largest of these standard errors.
+pub(super) fn places_over([least, most]: [f64; 2]) -> Vec<f64> {
+    let [inner, outer] = [FAR[2], FAR[3]];
+    let far = FAR.into_iter().filter(|place| {
+        let reach = if *place < 0.0 { -least } else { most };
+        reach > if place.abs() == outer { inner } else { NEAR[1] }
+    });
+    NEAR.into_iter().chain(far).collect()
+}
+
 /// Predictions of all readings at a place of a number [standard errors].
 pub(super) type Moved = (f64, Vec<PredictedReading>);
 
@@ -127,6 +137,13 @@ pub fn changed(is_share: bool, value: f64, change: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn places_lie_around_a_range() {
+        assert_eq!(places_over([-1.0, 2.0]), [-3.0, 3.0]);
+        assert_eq!(places_over([-1.0, 4.0]), [-3.0, 3.0, 6.0]);
+        assert_eq!(places_over([-7.0, 0.0]), [-3.0, 3.0, -10.0, -6.0]);
+    }
 
     fn reading(value: f64) -> PredictedReading {
         PredictedReading { value, variance: 0.0, doubt: 0.0, particles: 100.0 }

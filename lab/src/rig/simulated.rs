@@ -10,9 +10,11 @@
 //! a memory (`[deposit]`) have no such paths: their case is run anew for each law, with its own random
 //! captures.
 
+use std::collections::BTreeMap;
+
 use rayon::prelude::*;
 
-use super::case_change::{CaseChanges, FAR, Moved, NEAR, PRESENT, changed};
+use super::case_change::{CaseChanges, FAR, Moved, NEAR, PRESENT, changed, places_over};
 use super::case_number::CaseNumber;
 use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
@@ -88,8 +90,8 @@ struct Paths<'a> {
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
     base: Vec<[PredictedReading; 2]>,
-    /// What it gives with the particles with which numbers of the case are moved.
-    unmoved: Vec<PredictedReading>,
+    /// Number of particles with which numbers of the case are moved, and what the base law gives with them.
+    unmoved: (u64, Vec<PredictedReading>),
     /// What each number of the case changes, once that was computed.
     changes: Vec<CaseChanges>,
 }
@@ -110,8 +112,13 @@ const PARTICLE_RANGE: [u64; 2] = [128, 1024];
 const HITS: [f64; 2] = [256.0, 512.0];
 /// Monte Carlo variance that is small beside that of a reading [1].
 const SMALL_VARIANCE: f64 = 0.1;
-/// Times as many follow the base law.
-const BASE_PARTICLES: u64 = 8;
+/// At most so many times as many follow the base law, fewer where the Monte Carlo variance is small before.
+const BASE_PARTICLES: u64 = 4;
+/// Particles that follow the base law over those that tell what a number of the case changes [1]: with the same random
+/// numbers a change has a small error.
+const BASE_OVER_MOVED: u64 = 16;
+/// Particles that tell whether a number changes anything at all.
+const SCREENED: u64 = 64;
 /// Most flights of an experiment that are kept [1]: some 50 MB.
 const KEPT_FLIGHTS: u64 = 50_000;
 /// Fall of the sum of squared residuals by a move of a number, from which on the readings speak for it [1]: a right
@@ -133,7 +140,7 @@ impl<'a> SimulatedRig<'a> {
     /// The same of experiments that nobody has made yet, with about `particles` particles of each; without those whose
     /// walls or particles get where the model is not known.
     pub fn of_proposals(rigs: &'a [RigCase], particles: u64) -> Self {
-        let fly = |rig| Paths::new(rig, particles)?.with_base(particles);
+        let fly = |rig| Paths::new(rig, particles)?.with_base(1);
         Self::of(rigs, rigs.par_iter().filter_map(|rig| fly(rig).ok()).collect())
     }
 
@@ -144,23 +151,31 @@ impl<'a> SimulatedRig<'a> {
         Self { runs, experiments, numbers }
     }
 
-    /// Computes what numbers of the case change, by their places: until then they change nothing.
+    /// Computes what numbers of the case change, by their places, from the least to the largest of these standard
+    /// errors: until then they change nothing.
     #[must_use]
-    pub fn with_case_numbers(mut self, places: &[usize]) -> Self {
-        self.add_changes(places, &[&NEAR[..], &FAR[..]].concat());
+    pub fn with_case_numbers(mut self, ranges: &BTreeMap<usize, [f64; 2]>) -> Self {
+        for (number, range) in ranges {
+            self.add_changes(&[*number], &places_over(*range));
+        }
         self
     }
 
-    /// Computes what all numbers of the case change within the errors of their instruments, and beyond of those that
+    /// Computes what all numbers of the case change within the errors of their instruments, and beyond on the side that
     /// the readings speak for.
     #[must_use]
     pub fn with_told_numbers(mut self) -> Self {
-        let all: Vec<usize> = (0..self.numbers.len()).collect();
+        let matters = |number: &usize| self.runs.par_iter().any(|run| run.depends_on(&self.numbers[*number]));
+        let all: Vec<usize> = (0..self.numbers.len()).filter(matters).collect();
         self.add_changes(&all, &NEAR);
-        let is_told =
-            |number: &usize| self.numbers[*number].missing_force().is_none() && self.is_told(*number);
-        let told: Vec<usize> = all.into_iter().filter(is_told).collect();
-        self.add_changes(&told, &FAR);
+        for side in NEAR {
+            let is_told = |number: &usize| {
+                self.numbers[*number].missing_force().is_none() && self.is_told(*number, side)
+            };
+            let told: Vec<usize> = all.iter().copied().filter(is_told).collect();
+            let beyond: Vec<f64> = FAR.into_iter().filter(|widths| widths * side > 0.0).collect();
+            self.add_changes(&told, &beyond);
+        }
         self
     }
 
@@ -169,15 +184,13 @@ impl<'a> SimulatedRig<'a> {
         runs.par_iter_mut().for_each(|run| run.add_changes(numbers, places, widths));
     }
 
-    /// Whether the readings may be the better explained by a move of a number in either direction.
-    fn is_told(&self, number: usize) -> bool {
-        NEAR.into_iter().any(|widths| {
-            let terms = self.runs.iter().flat_map(|run| run.terms(number, widths));
-            let [along, square] = terms.fold([0.0; 2], |[along, square], [residual, change]| {
-                [along + residual * change, square + change * change]
-            });
-            along > 0.0 && along * along > TOLD * square
-        })
+    /// Whether the readings may be the better explained by a number moved by so many standard errors.
+    fn is_told(&self, number: usize, widths: f64) -> bool {
+        let terms = self.runs.iter().flat_map(|run| run.terms(number, widths));
+        let [along, square] = terms.fold([0.0; 2], |[along, square], [residual, change]| {
+            [along + residual * change, square + change * change]
+        });
+        along > 0.0 && along * along > TOLD * square
     }
 }
 
@@ -201,25 +214,34 @@ impl<'a> Paths<'a> {
                 return Ok(paths);
             }
             let (predicted, hits) = paths.tallied(&rig.case.model)?;
-            let is_small = |(reading, one): (&RigReading, &PredictedReading)| {
-                one.variance <= SMALL_VARIANCE * variance(reading, one.value) || !one.value.is_finite()
+            let readings = &rig.experiment.readings;
+            let share = |(reading, one): (&RigReading, &PredictedReading)| {
+                let share = one.variance / (SMALL_VARIANCE * variance(reading, one.value));
+                if share.is_finite() { share } else { 0.0 }
             };
-            let small = rig.experiment.readings.iter().zip(&predicted).all(is_small);
-            if particles >= most || hits >= HITS[usize::from(!small)] {
-                return paths.with_base(particles);
+            let largest = readings.iter().zip(&predicted).map(share).fold(0.0, f64::max);
+            if particles >= most || hits >= HITS[usize::from(largest > 1.0)] {
+                return paths.with_base(largest.ceil().clamp(1.0, BASE_PARTICLES as f64) as u64);
             }
             particles *= 2;
         }
     }
 
-    /// Follows the base law with many particles.
-    fn with_base(mut self, particles: u64) -> Result<Self, PredictionError> {
+    /// Follows the base law with so many times as many particles.
+    fn with_base(mut self, times: u64) -> Result<Self, PredictionError> {
         if self.rig.case.deposit.is_none() {
-            let known = self.exactly(&self.rig.case, BASE_PARTICLES * particles);
             let (own, _) = self.tallied(&self.rig.case.model)?;
+            let particles = times * self.particles();
+            let known = self.exactly(&self.rig.case, particles);
+            self.unmoved.0 = (particles / BASE_OVER_MOVED).max(PARTICLE_RANGE[0]);
             self.base = known.into_iter().zip(own).map(|(known, own)| [known, own]).collect();
         }
         Ok(self)
+    }
+
+    /// Number of particles whose flights are kept.
+    fn particles(&self) -> u64 {
+        self.blocks.iter().map(Vec::len).sum::<usize>() as u64
     }
 
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, PredictionError> {
@@ -238,7 +260,8 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
-        Ok(Self { rig, walls, blocks, base: Vec::new(), unmoved: Vec::new(), changes: Vec::new() })
+        let (base, unmoved, changes) = Default::default();
+        Ok(Self { rig, walls, blocks, base, unmoved, changes })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -255,32 +278,46 @@ impl<'a> Paths<'a> {
 
     /// Computes what numbers of the case change at further places of them.
     fn add_changes(&mut self, numbers: &[CaseNumber], places: &[usize], widths: &[f64]) {
-        let RigCase { experiment, text, place, case } = self.rig;
-        let particles = self.blocks.iter().map(Vec::len).sum::<usize>() as u64;
-        if self.unmoved.is_empty() {
-            self.unmoved = self.exactly(case, particles);
+        if self.unmoved.1.is_empty() {
+            self.unmoved.1 = self.exactly(&self.rig.case, self.unmoved.0);
         }
-        let shares: Vec<bool> = experiment.readings.iter().map(|one| one.quantity.is_share()).collect();
+        let (particles, unmoved) = &self.unmoved;
+        let shares: Vec<bool> =
+            self.rig.experiment.readings.iter().map(|one| one.quantity.is_share()).collect();
         self.changes.resize(numbers.len(), CaseChanges::default());
         for number in places.iter().copied() {
             let is_force = numbers[number].missing_force().is_some();
             let at = |widths: f64| {
-                // A number that the case refuses is none that was.
-                let moved = (&numbers[number], widths);
-                let mut moved = text.with_moved(place, &experiment.settings, moved).ok()?;
-                (moved.seed, moved.tolerance) = (case.seed, case.tolerance);
-                Some((widths, self.exactly(&moved, particles)))
+                Some((widths, self.exactly(&self.moved(&numbers[number], widths)?, *particles)))
             };
             let places = if is_force { &[PRESENT][..] } else { widths };
             let moved: Vec<Moved> = places.into_par_iter().copied().filter_map(at).collect();
-            self.changes[number].add(&shares, &self.unmoved, &moved);
+            self.changes[number].add(&shares, unmoved, &moved);
         }
+    }
+
+    /// The case with a number moved by so many standard errors; one that the case refuses is none that was.
+    fn moved(&self, number: &CaseNumber, widths: f64) -> Option<Case> {
+        let RigCase { experiment, text, place, case } = self.rig;
+        let mut moved = text.with_moved(place, &experiment.settings, (number, widths)).ok()?;
+        (moved.seed, moved.tolerance) = (case.seed, case.tolerance);
+        Some(moved)
+    }
+
+    /// Whether a number of the case changes anything at all, be it by rounding.
+    fn depends_on(&self, number: &CaseNumber) -> bool {
+        let values = |case: &Case| -> Vec<u64> {
+            self.exactly(case, SCREENED).iter().map(|one| one.value.to_bits()).collect()
+        };
+        let unmoved = values(&self.rig.case);
+        let places = if number.missing_force().is_some() { &[PRESENT][..] } else { &NEAR };
+        places.iter().filter_map(|widths| self.moved(number, *widths)).any(|one| values(&one) != unmoved)
     }
 
     /// Residual of each reading and what a number, moved by so many standard errors, changes, both over the error.
     fn terms(&self, number: usize, widths: f64) -> Vec<[f64; 2]> {
         let changes = self.changes.get(number).map(|known| known.at(widths)).unwrap_or_default();
-        let predicted = self.unmoved.iter().zip(changes);
+        let predicted = self.base.iter().map(|[known, _]| known).zip(changes);
         let of = |(reading, (one, change)): (&RigReading, (&PredictedReading, f64))| {
             let to = changed(reading.quantity.is_share(), one.value, change);
             let error = (variance(reading, one.value) + one.variance).sqrt();

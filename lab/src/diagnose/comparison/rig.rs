@@ -10,9 +10,7 @@ use super::bootstrap::Bootstrap;
 use super::measure::{ComparisonMeasure, MEASURES, Totals};
 use super::record::{self, Comparison, GroupedRows, ModelRows};
 use crate::dataset::RigMeasurements;
-use crate::rig::{
-    CaseText, Forward as _, PredictedReading, PredictionError, RigCase, SettingError, SimulatedRig,
-};
+use crate::rig::{CaseText, PredictedReading, PredictionError, RigCase, SettingError, SimulatedRig};
 use nearwall::input::Document;
 
 /// Least number of readings of a comparison.
@@ -71,10 +69,7 @@ pub fn compare_rig(
         let forward = SimulatedRig::new(&cases).map_err(of_model)?;
         let (readings, predicted) = match first.take() {
             Some(readings) => (readings, predictions(&forward).map_err(of_model)?),
-            None => {
-                let numbers: Vec<usize> = (0..forward.case_numbers().len()).collect();
-                readings(&forward.with_case_numbers(&numbers)).map_err(of_model)?
-            }
+            None => readings(&forward.with_told_numbers()).map_err(of_model)?,
         };
         totals.push(scored(&readings, &predicted));
         first = Some(readings);

@@ -14,7 +14,7 @@
 //! The count that decides between the two leading causes is that at which the expected ratio of
 //! their likelihoods is `e³`.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 
 use serde::Serialize;
 
@@ -38,7 +38,7 @@ const STATES: [usize; 2] = [12, 5];
 /// Most rows of the table.
 const MOST_PROPOSALS: usize = 8;
 /// Particles followed in each proposal.
-const PROPOSAL_PARTICLES: u64 = 200;
+const PROPOSAL_PARTICLES: u64 = 128;
 /// Count of particles that is assumed where the file states neither counts nor errors.
 const ASSUMED_COUNT: f64 = 100.0;
 /// Logarithm of the ratio of likelihoods that decides [nats].
@@ -147,9 +147,12 @@ pub(super) fn next_experiments(
     let cases: Vec<RigCase> = proposed.filter_map(|one| RigCase::proposed(text, &one).ok()).collect();
     let mut causes = causes(study, choice, posterior);
     let moved = causes.iter().flat_map(|cause| &cause.states).flatten();
-    let moved: BTreeSet<usize> = moved.filter_map(|one| Some(one.case_number()?.0)).collect();
-    let moved: Vec<usize> = moved.into_iter().collect();
-    let forward = SimulatedRig::of_proposals(&cases, PROPOSAL_PARTICLES).with_case_numbers(&moved);
+    let mut ranges: BTreeMap<usize, [f64; 2]> = BTreeMap::new();
+    for (number, _, widths) in moved.filter_map(RigAddition::case_number) {
+        let [least, most] = ranges.entry(number).or_default();
+        (*least, *most) = (least.min(widths), most.max(widths));
+    }
+    let forward = SimulatedRig::of_proposals(&cases, PROPOSAL_PARTICLES).with_case_numbers(&ranges);
     let proposed = forward.experiments();
     let by_state = predict_states(&forward, &mut causes);
     if causes.is_empty() || proposed.is_empty() {
