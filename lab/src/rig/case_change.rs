@@ -2,7 +2,9 @@
 //!
 //! The case is simulated with the base law at a few places of the number, with the same random
 //! numbers. Between them the change of a reading is interpolated by cubic curves that do not
-//! overshoot (Fritsch and Carlson 1980, with the slopes of Fritsch and Butland 1984).
+//! overshoot (Fritsch and Carlson 1980, with the slopes of Fritsch and Butland 1984). In a gas with random motion a
+//! change `c` has an error of its own, with the variance `v` from the blocks of particles: `c max(0, 1 - v/c²)` is what
+//! is taken of it (James and Stein's estimate, which is 0 for what may be noise alone).
 
 use super::tally::{PredictedReading, away_from_edges};
 
@@ -33,48 +35,55 @@ pub(super) type Moved = (f64, Vec<PredictedReading>);
 pub struct CaseChanges {
     /// Ascending, with 0 [standard errors].
     at: Vec<f64>,
-    /// By place and reading: of a share in log odds.
-    changes: Vec<Vec<f64>>,
+    /// By place and reading: the change, of a share in log odds, and its variance.
+    changes: Vec<Vec<[f64; 2]>>,
 }
 
 impl CaseChanges {
     /// Adds further places, from the predictions at the case's own number and there. A reading
     /// that does not exist at a place, as a rebound where all are caught, changes no further.
     pub(super) fn add(&mut self, shares: &[bool], base: &[PredictedReading], moved: &[Moved]) {
-        let of = |predicted: &[PredictedReading]| -> Vec<f64> {
+        let of = |predicted: &[PredictedReading]| -> Vec<[f64; 2]> {
             let change = |((share, from), to): ((&bool, &PredictedReading), &PredictedReading)| {
-                scale(*share, to.value) - scale(*share, from.value)
+                let change = scale(*share, to.value) - scale(*share, from.value);
+                let p = away_from_edges(0.5 * (from.value + to.value));
+                let slope = if *share { p * (1.0 - p) } else { 1.0 };
+                let variance = from.variance_of_difference(to) / (slope * slope);
+                let kept = if variance > 0.0 { (1.0 - variance / (change * change)).max(0.0) } else { 1.0 };
+                [kept * change, variance]
             };
             shares.iter().zip(base).zip(predicted).map(change).collect()
         };
         if self.at.is_empty() {
-            (self.at, self.changes) = (vec![0.0], vec![vec![0.0; shares.len()]]);
+            (self.at, self.changes) = (vec![0.0], vec![vec![[0.0; 2]; shares.len()]]);
         }
         let known = std::mem::take(&mut self.at).into_iter().zip(std::mem::take(&mut self.changes));
-        let mut all: Vec<(f64, Vec<f64>)> = known.collect();
+        let mut all: Vec<(f64, Vec<[f64; 2]>)> = known.collect();
         all.extend(moved.iter().map(|(widths, predicted)| (*widths, of(predicted))));
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (at, mut changes): (Vec<f64>, Vec<Vec<f64>>) = all.into_iter().unzip();
+        let (at, mut changes): (Vec<f64>, Vec<Vec<[f64; 2]>>) = all.into_iter().unzip();
         let middle = at.iter().position(|widths| *widths == 0.0).unwrap_or(0);
         let outwards = (middle + 1..at.len()).map(|place| (place, place - 1));
         let inwards = (0..middle).rev().map(|place| (place, place + 1));
         for (place, before) in outwards.chain(inwards) {
             let known = changes[before].clone();
-            for (one, known) in changes[place].iter_mut().zip(known).filter(|(one, _)| !one.is_finite()) {
+            for (one, known) in changes[place].iter_mut().zip(known).filter(|(one, _)| !one[0].is_finite()) {
                 *one = known;
             }
         }
         (self.at, self.changes) = (at, changes);
     }
 
-    /// The change of every reading with the number moved by so many standard errors; in proportion to them beyond the
-    /// places.
-    pub fn at(&self, widths: f64) -> Vec<f64> {
+    /// The change of every reading with the number moved by so many standard errors, and its variance; in proportion to
+    /// them beyond the places.
+    pub fn at(&self, widths: f64) -> Vec<[f64; 2]> {
         if let [first, _, .., last] = self.at[..]
             && !(first..=last).contains(&widths)
         {
             let end = widths.clamp(first, last);
-            return self.at(end).into_iter().map(|change| change * widths / end).collect();
+            let farther = widths / end;
+            let of = |[change, variance]: [f64; 2]| [change * farther, variance * farther * farther];
+            return self.at(end).into_iter().map(of).collect();
         }
         let count = self.at.len();
         if count < 2 {
@@ -83,13 +92,16 @@ impl CaseChanges {
         let after = self.at.partition_point(|place| *place <= widths).clamp(1, count - 1);
         let (low, step) = (after - 1, self.at[after] - self.at[after - 1]);
         let share = ((widths - self.at[low]) / step).clamp(0.0, 1.0);
+        let outer = if widths < 0.0 { low } else { after };
+        let nearer = (widths / self.at[outer]).powi(2).min(1.0);
         let one = |reading: usize| {
-            let [from, to] = [self.changes[low][reading], self.changes[after][reading]];
+            let [from, to] = [low, after].map(|place| self.changes[place][reading][0]);
             let slopes = [self.slope(low, reading), self.slope(after, reading)];
             let rest = 1.0 - share;
-            from * (1.0 + 2.0 * share) * rest * rest
+            let change = from * (1.0 + 2.0 * share) * rest * rest
                 + to * (3.0 - 2.0 * share) * share * share
-                + step * share * rest * (slopes[0] * rest - slopes[1] * share)
+                + step * share * rest * (slopes[0] * rest - slopes[1] * share);
+            [change, nearer * self.changes[outer][reading][1]]
         };
         (0..self.changes[low].len()).map(one).collect()
     }
@@ -99,7 +111,7 @@ impl CaseChanges {
     fn slope(&self, place: usize, reading: usize) -> f64 {
         let part = |low: usize| {
             let step = self.at[low + 1] - self.at[low];
-            (step, (self.changes[low + 1][reading] - self.changes[low][reading]) / step)
+            (step, (self.changes[low + 1][reading][0] - self.changes[low][reading][0]) / step)
         };
         if place == 0 {
             return part(0).1;
@@ -137,6 +149,21 @@ pub fn changed(is_share: bool, value: f64, change: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::simulate::BLOCKS;
+
+    /// A change by 0.1 whose blocks differ by a standard error of 0.05 each, 0.2 in all, is none; one by 1 is 0.96.
+    #[test]
+    fn noise_is_no_change() {
+        for (change, kept) in [(0.1, 0.0), (1.0, 0.96)] {
+            let mut moved = reading(change);
+            moved.blocks = [0.05; BLOCKS];
+            let mut changes = CaseChanges::default();
+            changes.add(&[false], &[reading(0.0)], &[(-3.0, vec![reading(0.0)]), (3.0, vec![moved])]);
+            let [found, variance] = changes.at(3.0)[0];
+            assert!((found - kept).abs() < 1e-12 && (variance - 0.04).abs() < 1e-12, "{found} {variance}");
+            assert!((changes.at(1.5)[0][1] - 0.01).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn places_lie_around_a_range() {
@@ -146,7 +173,7 @@ mod tests {
     }
 
     fn reading(value: f64) -> PredictedReading {
-        PredictedReading { value, variance: 0.0, doubt: 0.0, particles: 100.0 }
+        PredictedReading { value, variance: 0.0, doubt: 0.0, particles: 100.0, blocks: [0.0; BLOCKS] }
     }
 
     /// A straight line stays one, the places are met, and what does not exist keeps the last change.
@@ -161,8 +188,8 @@ mod tests {
             changes.add(&[false, true], &at(0.0), &moved);
             for widths in [-10.0, -4.5, 0.0, 1.0, 7.0] {
                 let found = changes.at(widths);
-                assert!((found[0] - 0.02 * widths).abs() < 1e-12, "{widths} {found:?}");
-                assert_eq!(found[1], 0.0);
+                assert!((found[0][0] - 0.02 * widths).abs() < 1e-12, "{widths} {found:?}");
+                assert_eq!(found[1], [0.0; 2]);
             }
         }
         let share = changed(true, 0.3, 1.0);

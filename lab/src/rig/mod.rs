@@ -102,8 +102,8 @@ pub trait Forward: Sync {
     }
 
     /// How the base law's readings of an experiment change with such a number moved by so many of its
-    /// standard errors: of a share in log odds. Empty where nothing is known.
-    fn case_change(&self, _experiment: usize, _number: usize, _widths: f64) -> Vec<f64> {
+    /// standard errors, and the variance of that: of a share in log odds. Empty where nothing is known.
+    fn case_change(&self, _experiment: usize, _number: usize, _widths: f64) -> Vec<[f64; 2]> {
         Vec::new()
     }
 

@@ -20,7 +20,7 @@ use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::simulate::{Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
+use crate::simulate::{BLOCKS, Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
 use nearwall::effect::CurveInput;
 use nearwall::model::Model;
 
@@ -318,7 +318,7 @@ impl<'a> Paths<'a> {
     fn terms(&self, number: usize, widths: f64) -> Vec<[f64; 2]> {
         let changes = self.changes.get(number).map(|known| known.at(widths)).unwrap_or_default();
         let predicted = self.base.iter().map(|[known, _]| known).zip(changes);
-        let of = |(reading, (one, change)): (&RigReading, (&PredictedReading, f64))| {
+        let of = |(reading, (one, [change, _])): (&RigReading, (&PredictedReading, [f64; 2]))| {
             let to = changed(reading.quantity.is_share(), one.value, change);
             let error = (variance(reading, one.value) + one.variance).sqrt();
             let [residual, change] = [reading.value - one.value, to - one.value].map(|gap| gap / error);
@@ -346,7 +346,7 @@ impl<'a> Paths<'a> {
                 .for_each(|own| tally.add(own));
             tally.end_block();
         }
-        tally.predicted()
+        self.with_noise(tally.predicted())
     }
 
     /// What a model gives for these particles, and how often they hit a wall.
@@ -365,7 +365,15 @@ impl<'a> Paths<'a> {
             }
             tally.end_block();
         }
-        Ok((tally.predicted(), hits))
+        Ok((self.with_noise(tally.predicted()), hits))
+    }
+
+    /// Where nothing moves particles at random, differences between predictions for the same particles have no noise.
+    fn with_noise(&self, mut predicted: Vec<PredictedReading>) -> Vec<PredictedReading> {
+        if !self.rig.case.gas.is_random() {
+            predicted.iter_mut().for_each(|one| one.blocks = [0.0; BLOCKS]);
+        }
+        predicted
     }
 
     /// Runs the whole case, whose walls change with what they caught.
@@ -428,7 +436,7 @@ impl Forward for SimulatedRig<'_> {
         &self.numbers
     }
 
-    fn case_change(&self, experiment: usize, number: usize, widths: f64) -> Vec<f64> {
+    fn case_change(&self, experiment: usize, number: usize, widths: f64) -> Vec<[f64; 2]> {
         self.runs[experiment].changes.get(number).map(|known| known.at(widths)).unwrap_or_default()
     }
 

@@ -6,6 +6,7 @@
 //! / (n f²)`, with the density `f` from the values around it.
 
 use crate::dataset::{Restitution, RigQuantity, RigReading};
+use crate::simulate::BLOCKS;
 use nearwall::impact::{Impact, Outcome};
 
 /// Half the width in probability of the interval from which the density at a quantile is taken [1].
@@ -21,10 +22,13 @@ pub struct PredictedReading {
     pub value: f64,
     /// Its Monte Carlo variance [1].
     pub variance: f64,
-    /// Variance of what a replay cannot know [1]; see [`Tally::set_doubt`].
+    /// Variance of what is not known of this prediction [1]: what a replay cannot know ([`Tally::set_doubt`]), and the
+    /// noise of a difference in a gas with random motion.
     pub doubt: f64,
     /// Number of particles on which it rests.
     pub particles: f64,
+    /// How far each block of particles moves the value [1]: their squares add up to the variance; 0 without blocks.
+    pub blocks: [f64; BLOCKS],
 }
 
 /// Distance that a predicted share keeps from 0 and 1 [1]: a stray particle must not refute a law.
@@ -37,10 +41,16 @@ pub(crate) fn away_from_edges(share: f64) -> f64 {
 
 impl PredictedReading {
     /// This better known value with the difference between two predictions for the same particles.
-    /// Its variance stays: the difference has next to none where a law is near the base.
+    /// Its variance stays; that of the difference is doubt.
     pub fn moved(&self, from: &Self, to: &Self) -> Self {
         let value = self.value + (to.value - from.value);
-        if value.is_finite() { Self { value, ..*self } } else { *to }
+        let doubt = self.doubt + from.variance_of_difference(to);
+        if value.is_finite() { Self { value, doubt, ..*self } } else { *to }
+    }
+
+    /// Variance of the difference from a prediction for the same blocks of particles [1].
+    pub(super) fn variance_of_difference(&self, other: &Self) -> f64 {
+        self.blocks.iter().zip(&other.blocks).map(|(one, other)| (one - other).powi(2)).sum()
     }
 }
 
@@ -66,8 +76,10 @@ pub struct TalliedHit<'a> {
 }
 
 /// A ratio of sums over particles.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 struct Ratio {
+    /// The sums of each block.
+    blocks: Vec<[f64; 2]>,
     particles: f64,
     sums: [f64; 2],
     /// Sums of `a²`, `a b` and `b²`.
@@ -90,7 +102,11 @@ impl Ratio {
         let [aa, ab, bb] = self.squares;
         let scatter = (aa - 2.0 * ratio * ab + ratio * ratio * bb).max(0.0) / (b * b);
         let small = particles / (particles - 1.0).max(1.0);
-        PredictedReading { value: ratio, variance: scatter * small, doubt: 0.0, particles }
+        let mut blocks = [0.0; BLOCKS];
+        for (moved, [a, b]) in blocks.iter_mut().zip(&self.blocks) {
+            *moved = (a - ratio * b) / self.sums[1] * small.sqrt();
+        }
+        PredictedReading { value: ratio, variance: scatter * small, doubt: 0.0, particles, blocks }
     }
 }
 
@@ -180,6 +196,7 @@ impl Tally {
     /// Ends a block of particles.
     pub fn end_block(&mut self) {
         for line in &mut self.lines {
+            line.ratio.blocks.push(line.own);
             line.ratio.add(std::mem::take(&mut line.own));
         }
     }
@@ -264,7 +281,8 @@ impl ReadingSums {
         let slope = (quantile(high) - quantile(low)) / (high - low);
         let particles = self.values.len() as f64;
         let variance = probability * (1.0 - probability) / particles.max(1.0) * slope * slope;
-        PredictedReading { value: quantile(probability), variance, doubt: 0.0, particles }
+        let blocks = [0.0; BLOCKS];
+        PredictedReading { value: quantile(probability), variance, doubt: 0.0, particles, blocks }
     }
 }
 

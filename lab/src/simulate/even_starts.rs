@@ -13,7 +13,7 @@ use super::injection::StartNumbers;
 use super::tracker::Start;
 
 /// Number of blocks.
-const BLOCKS: u64 = 16;
+pub const BLOCKS: usize = 16;
 
 /// A point of the sequence, of which each use takes the next coordinate.
 struct SobolPoint {
@@ -57,5 +57,5 @@ pub fn even_starts(case: &Case, particles: u64) -> Vec<Vec<Start>> {
         }
         starts
     };
-    (0..BLOCKS).map(&mut block).collect()
+    (0..BLOCKS as u64).map(&mut block).collect()
 }

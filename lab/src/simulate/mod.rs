@@ -41,7 +41,7 @@ pub use conversion::{CarbonConversion, GAS_CONSTANT};
 pub use deposit_settings::DepositSettings;
 pub use distribution::{Distribution, DistributionKey};
 pub use error::SimulationError;
-pub use even_starts::even_starts;
+pub use even_starts::{BLOCKS, even_starts};
 pub use flight::{FlightEnd, fly};
 pub use fusion::Fusion;
 pub use injection::{Injection, ParticleWeight};

@@ -17,7 +17,7 @@ const LEAST_CASE_CHANGE: f64 = 1e-3;
 fn acts(forward: &dyn Forward, number: usize) -> bool {
     let changes = |widths: f64| {
         let of = move |experiment: usize| forward.case_change(experiment, number, widths);
-        (0..forward.experiments().len()).flat_map(of).any(|change| change.abs() > LEAST_CASE_CHANGE)
+        (0..forward.experiments().len()).flat_map(of).any(|[change, _]| change.abs() > LEAST_CASE_CHANGE)
     };
     [-FARTHEST, FARTHEST].into_iter().any(changes)
 }

@@ -588,5 +588,5 @@ fn existing(one: &PredictedReading, measured: f64) -> PredictedReading {
         return *one;
     }
     let value = if measured > 0.5 { 0.0 } else { 1.0 };
-    PredictedReading { value, variance: 0.0, doubt: 0.0, particles: one.particles }
+    PredictedReading { value, variance: 0.0, doubt: 0.0, ..*one }
 }

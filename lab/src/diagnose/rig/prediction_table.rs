@@ -13,7 +13,7 @@ use super::addition::{RigAddition, apply_all};
 use super::candidates::candidates;
 use super::inputs::RigInputs;
 use super::noise::{Data, PreparedReadings, WeightedValues};
-use crate::rig::{Forward, PredictedReading, PredictionError, changed};
+use crate::rig::{Forward, PredictedReading, PredictionError, away_from_edges, changed};
 
 /// A candidate at one place.
 #[derive(Debug)]
@@ -65,9 +65,13 @@ pub(super) fn change_case(
     let readings = &forward.experiments()[experiment].readings;
     for (place, _, widths) in additions.iter().filter_map(RigAddition::case_number) {
         let changes = forward.case_change(experiment, place, widths);
-        for ((one, reading), change) in predicted.iter_mut().zip(readings).zip(changes) {
+        for ((one, reading), [change, variance]) in predicted.iter_mut().zip(readings).zip(changes) {
             if one.value.is_finite() {
-                one.value = changed(reading.quantity.is_share(), one.value, change);
+                let is_share = reading.quantity.is_share();
+                one.value = changed(is_share, one.value, change);
+                let p = away_from_edges(one.value);
+                let slope = if is_share { p * (1.0 - p) } else { 1.0 };
+                one.doubt += variance * slope * slope;
             }
         }
     }
