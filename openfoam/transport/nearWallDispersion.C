@@ -78,8 +78,8 @@ void Foam::nearWallDispersion<CloudType>::warnOfLongSteps()
     if (!Pstream::master()) return;
     WarningInFunction
         << "Cloud " << this->owner().name() << ": " << (100*tooLong)/all
-        << " % of the parcels' steps are so long, against the time scale of the"
-        << " turbulence around them, that they spread too far." << nl
+        << " % of the parcels' steps are too long for the turbulence around"
+        << " them: the parcels spread too far." << nl
         << "    Lower maxCo of the cloud, or the time step." << endl;
 }
 

@@ -112,16 +112,16 @@ impl WallLayer {
         let (length, time) = (self.kinematic_viscosity / speed, self.kinematic_viscosity / (speed * speed));
         let far = core.map_or(speed, |core| core.fluctuation);
         let near = time * time_plus(plus);
+        let far_time = core.map_or(near, |core| core.time_scale);
         if !self.reaches() {
-            let (normal_gradient, shape_gradient, shape) = (0.0, [0.0; 2], [1.0, 0.0]);
-            let time_scale = core.map_or(near, |core| core.time_scale);
+            // What follows gives the same there, at the cost of its powers.
             return Fluctuations {
                 deviations: [far; 3],
-                normal_gradient,
-                shape,
-                shape_gradient,
+                normal_gradient: 0.0,
+                shape: [1.0, 0.0],
+                shape_gradient: [0.0; 2],
                 core_share: 1.0,
-                time_scale,
+                time_scale: far_time,
             };
         }
         let [core_share, growth] = blend(plus);
@@ -133,7 +133,7 @@ impl WallLayer {
             mixed(speed * spanwise_deviation(plus)),
         ];
         let normal_gradient = ((1.0 - core_share) * speed * slope + growth * (far - speed * normal)) / length;
-        let time_scale = near + core_share * (core.map_or(near, |core| core.time_scale) - near);
+        let time_scale = near + core_share * (far_time - near);
         let [shape, slope] = normal_shape(plus);
         let shape_gradient = slope.map(|slope| slope / length);
         Fluctuations { deviations, normal_gradient, shape, shape_gradient, core_share, time_scale }

@@ -17,14 +17,15 @@ pub const PRESENT: f64 = 1.0;
 /// The farthest of them.
 pub const FARTHEST: f64 = 10.0;
 
-/// The places that tell what a number changes from the least to the largest of these standard errors.
+/// The places that tell what a number changes from the least to the largest of these standard errors: up to the first
+/// beyond each.
 pub(super) fn places_over([least, most]: [f64; 2]) -> Vec<f64> {
-    let [inner, outer] = [FAR[2], FAR[3]];
-    let far = FAR.into_iter().filter(|place| {
-        let reach = if *place < 0.0 { -least } else { most };
-        reach > if place.abs() == outer { inner } else { NEAR[1] }
-    });
-    NEAR.into_iter().chain(far).collect()
+    let all = || NEAR.into_iter().chain(FAR);
+    let is_needed = |place: &f64| {
+        let inner = all().map(f64::abs).filter(|one| *one < place.abs()).fold(0.0, f64::max);
+        NEAR.contains(place) || inner < if *place < 0.0 { -least } else { most }
+    };
+    all().filter(is_needed).collect()
 }
 
 /// Predictions of all readings at a place of a number [standard errors].
@@ -46,8 +47,7 @@ impl CaseChanges {
         let of = |predicted: &[PredictedReading]| -> Vec<[f64; 2]> {
             let change = |((share, from), to): ((&bool, &PredictedReading), &PredictedReading)| {
                 let change = scale(*share, to.value) - scale(*share, from.value);
-                let p = away_from_edges(0.5 * (from.value + to.value));
-                let slope = if *share { p * (1.0 - p) } else { 1.0 };
+                let slope = slope(*share, 0.5 * (from.value + to.value));
                 let variance = from.variance_of_difference(to) / (slope * slope);
                 let kept = if variance > 0.0 { (1.0 - variance / (change * change)).max(0.0) } else { 1.0 };
                 [kept * change, variance]
@@ -135,6 +135,12 @@ fn scale(is_share: bool, value: f64) -> f64 {
     }
     let p = away_from_edges(value);
     (p / (1.0 - p)).ln()
+}
+
+/// How much a value changes with that scale.
+pub fn slope(is_share: bool, value: f64) -> f64 {
+    let p = away_from_edges(value);
+    if is_share { p * (1.0 - p) } else { 1.0 }
 }
 
 /// A predicted value with such a change.

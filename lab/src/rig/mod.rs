@@ -24,7 +24,7 @@ mod simulated;
 pub mod tally;
 
 pub use captures::{Captures, Flights, run_captures};
-pub use case_change::{FARTHEST, PRESENT, changed};
+pub use case_change::{FARTHEST, PRESENT, changed, slope};
 pub use case_number::CaseNumber;
 pub use case_text::{CaseText, SettingError, SettingFault};
 pub use draws::{Band, CaptureBand, DrawnModels, DrawsError, add_capture_bands};

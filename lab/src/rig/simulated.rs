@@ -90,8 +90,10 @@ struct Paths<'a> {
     blocks: Vec<Vec<PathTree<'a>>>,
     /// What the base law gives with many particles, and in these blocks.
     base: Vec<[PredictedReading; 2]>,
-    /// Number of particles with which numbers of the case are moved, and what the base law gives with them.
-    unmoved: (u64, Vec<PredictedReading>),
+    /// Number of particles that tell what numbers of the case change.
+    moved_particles: u64,
+    /// What the base law gives with them, once that was computed.
+    unmoved: Vec<PredictedReading>,
     /// What each number of the case changes, once that was computed.
     changes: Vec<CaseChanges>,
 }
@@ -112,7 +114,7 @@ const PARTICLE_RANGE: [u64; 2] = [128, 1024];
 const HITS: [f64; 2] = [256.0, 512.0];
 /// Monte Carlo variance that is small beside that of a reading [1].
 const SMALL_VARIANCE: f64 = 0.1;
-/// At most so many times as many follow the base law, fewer where the Monte Carlo variance is small before.
+/// At most so many times as many follow the base law [1]; fewer where the Monte Carlo variance needs no more.
 const BASE_PARTICLES: u64 = 4;
 /// Particles that follow the base law over those that tell what a number of the case changes [1]: with the same random
 /// numbers a change has a small error.
@@ -165,7 +167,11 @@ impl<'a> SimulatedRig<'a> {
     /// the readings speak for.
     #[must_use]
     pub fn with_told_numbers(mut self) -> Self {
-        let matters = |number: &usize| self.runs.par_iter().any(|run| run.depends_on(&self.numbers[*number]));
+        let unmoved: Vec<_> = self.runs.par_iter().map(|run| run.screened(&run.rig.case)).collect();
+        let matters = |number: &usize| {
+            let runs = self.runs.par_iter().zip(&unmoved);
+            runs.any(|(run, unmoved)| run.depends_on(&self.numbers[*number], unmoved))
+        };
         let all: Vec<usize> = (0..self.numbers.len()).filter(matters).collect();
         self.add_changes(&all, &NEAR);
         for side in NEAR {
@@ -181,6 +187,9 @@ impl<'a> SimulatedRig<'a> {
 
     fn add_changes(&mut self, places: &[usize], widths: &[f64]) {
         let Self { runs, numbers, .. } = self;
+        if places.is_empty() {
+            return;
+        }
         runs.par_iter_mut().for_each(|run| run.add_changes(numbers, places, widths));
     }
 
@@ -192,6 +201,11 @@ impl<'a> SimulatedRig<'a> {
         });
         along > 0.0 && along * along > TOLD * square
     }
+}
+
+/// The places of a number among these: a force is there or not.
+fn places_of<'w>(number: &CaseNumber, widths: &'w [f64]) -> &'w [f64] {
+    if number.missing_force().is_some() { &[PRESENT] } else { widths }
 }
 
 /// Variance of a reading about a predicted value [1].
@@ -233,7 +247,7 @@ impl<'a> Paths<'a> {
             let (own, _) = self.tallied(&self.rig.case.model)?;
             let particles = times * self.particles();
             let known = self.exactly(&self.rig.case, particles);
-            self.unmoved.0 = (particles / BASE_OVER_MOVED).max(PARTICLE_RANGE[0]);
+            self.moved_particles = (particles / BASE_OVER_MOVED).max(PARTICLE_RANGE[0]);
             self.base = known.into_iter().zip(own).map(|(known, own)| [known, own]).collect();
         }
         Ok(self)
@@ -260,8 +274,8 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
-        let (base, unmoved, changes) = Default::default();
-        Ok(Self { rig, walls, blocks, base, unmoved, changes })
+        let (base, moved_particles, unmoved, changes) = Default::default();
+        Ok(Self { rig, walls, blocks, base, moved_particles, unmoved, changes })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -278,21 +292,19 @@ impl<'a> Paths<'a> {
 
     /// Computes what numbers of the case change at further places of them.
     fn add_changes(&mut self, numbers: &[CaseNumber], places: &[usize], widths: &[f64]) {
-        if self.unmoved.1.is_empty() {
-            self.unmoved.1 = self.exactly(&self.rig.case, self.unmoved.0);
+        let particles = self.moved_particles;
+        if self.unmoved.is_empty() {
+            self.unmoved = self.exactly(&self.rig.case, particles);
         }
-        let (particles, unmoved) = &self.unmoved;
         let shares: Vec<bool> =
             self.rig.experiment.readings.iter().map(|one| one.quantity.is_share()).collect();
         self.changes.resize(numbers.len(), CaseChanges::default());
         for number in places.iter().copied() {
-            let is_force = numbers[number].missing_force().is_some();
-            let at = |widths: f64| {
-                Some((widths, self.exactly(&self.moved(&numbers[number], widths)?, *particles)))
+            let at = |widths: &f64| {
+                Some((*widths, self.exactly(&self.moved(&numbers[number], *widths)?, particles)))
             };
-            let places = if is_force { &[PRESENT][..] } else { widths };
-            let moved: Vec<Moved> = places.into_par_iter().copied().filter_map(at).collect();
-            self.changes[number].add(&shares, unmoved, &moved);
+            let moved: Vec<Moved> = places_of(&numbers[number], widths).par_iter().filter_map(at).collect();
+            self.changes[number].add(&shares, &self.unmoved, &moved);
         }
     }
 
@@ -304,14 +316,15 @@ impl<'a> Paths<'a> {
         Some(moved)
     }
 
-    /// Whether a number of the case changes anything at all, be it by rounding.
-    fn depends_on(&self, number: &CaseNumber) -> bool {
-        let values = |case: &Case| -> Vec<u64> {
-            self.exactly(case, SCREENED).iter().map(|one| one.value.to_bits()).collect()
-        };
-        let unmoved = values(&self.rig.case);
-        let places = if number.missing_force().is_some() { &[PRESENT][..] } else { &NEAR };
-        places.iter().filter_map(|widths| self.moved(number, *widths)).any(|one| values(&one) != unmoved)
+    /// The bits of what few particles give in a case.
+    fn screened(&self, case: &Case) -> Vec<u64> {
+        self.exactly(case, SCREENED).iter().map(|one| one.value.to_bits()).collect()
+    }
+
+    /// Whether a number of the case changes anything at all about what few particles give in it, be it by rounding.
+    fn depends_on(&self, number: &CaseNumber, unmoved: &[u64]) -> bool {
+        let mut moved = places_of(number, &NEAR).iter().filter_map(|widths| self.moved(number, *widths));
+        moved.any(|case| self.screened(&case) != unmoved)
     }
 
     /// Residual of each reading and what a number, moved by so many standard errors, changes, both over the error.
@@ -346,7 +359,7 @@ impl<'a> Paths<'a> {
                 .for_each(|own| tally.add(own));
             tally.end_block();
         }
-        self.with_noise(tally.predicted())
+        self.predicted(tally)
     }
 
     /// What a model gives for these particles, and how often they hit a wall.
@@ -365,11 +378,13 @@ impl<'a> Paths<'a> {
             }
             tally.end_block();
         }
-        Ok((self.with_noise(tally.predicted()), hits))
+        Ok((self.predicted(tally), hits))
     }
 
-    /// Where nothing moves particles at random, differences between predictions for the same particles have no noise.
-    fn with_noise(&self, mut predicted: Vec<PredictedReading>) -> Vec<PredictedReading> {
+    /// The predictions of a tally. Where nothing moves particles at random, the noise of differences between
+    /// predictions for the same particles is left out: next to none.
+    fn predicted(&self, tally: Tally) -> Vec<PredictedReading> {
+        let mut predicted = tally.predicted();
         if !self.rig.case.gas.is_random() {
             predicted.iter_mut().for_each(|one| one.blocks = [0.0; BLOCKS]);
         }

@@ -365,6 +365,37 @@ mod tests {
         assert!(value[9].is_nan() && value[10] == 0.0);
     }
 
+    /// Four blocks of ten particles that catch 1, 2, 4 and 5 of them: the share is 0.3, its variance that of the
+    /// mean of four numbers. A prediction with one more in each block differs without noise; one with the blocks in the
+    /// reverse order differs by twice the distances.
+    #[test]
+    fn blocks_carry_the_variance() {
+        let readings = [reading("captured@a")];
+        let predicted = |caught: [u32; 4]| {
+            let mut tally = Tally::new(&readings, &["a".to_owned()]);
+            let (impact, outcome) = (Impact::default(), rebound(0.0));
+            for caught in caught {
+                for particle in 0..10 {
+                    let caught = if particle < caught { 1.0 } else { 0.0 };
+                    let (wall, coordinate, share, weight, mass) = (0, 0.0, 1.0, 1.0, 1.0);
+                    let (impact, outcome) = (&impact, &outcome);
+                    tally.hit(&TalliedHit { wall, coordinate, impact, outcome, share, caught, weight, mass });
+                    tally.end_particle_of_block(1.0);
+                }
+                tally.end_block();
+            }
+            tally.predicted()[0]
+        };
+        let one = predicted([1, 2, 4, 5]);
+        assert!((one.value - 0.3).abs() < 1e-12);
+        // The squared distances from 0.3 add up to 0.1.
+        assert!((one.variance - 0.1 / 3.0 / 4.0).abs() < 1e-12);
+        assert!((one.blocks.iter().map(|part| part * part).sum::<f64>() - one.variance).abs() < 1e-12);
+        assert!(one.variance_of_difference(&predicted([2, 3, 5, 6])) < 1e-12);
+        let turned = predicted([5, 4, 2, 1]);
+        assert!((one.variance_of_difference(&turned) - 4.0 * one.variance).abs() < 1e-12);
+    }
+
     #[test]
     fn the_variance_of_a_share_is_binomial() {
         let readings = [reading("captured@a")];

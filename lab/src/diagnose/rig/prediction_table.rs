@@ -13,7 +13,7 @@ use super::addition::{RigAddition, apply_all};
 use super::candidates::candidates;
 use super::inputs::RigInputs;
 use super::noise::{Data, PreparedReadings, WeightedValues};
-use crate::rig::{Forward, PredictedReading, PredictionError, away_from_edges, changed};
+use crate::rig::{Forward, PredictedReading, PredictionError, changed, slope};
 
 /// A candidate at one place.
 #[derive(Debug)]
@@ -69,9 +69,7 @@ pub(super) fn change_case(
             if one.value.is_finite() {
                 let is_share = reading.quantity.is_share();
                 one.value = changed(is_share, one.value, change);
-                let p = away_from_edges(one.value);
-                let slope = if is_share { p * (1.0 - p) } else { 1.0 };
-                one.doubt += variance * slope * slope;
+                one.doubt += variance * slope(is_share, one.value).powi(2);
             }
         }
     }

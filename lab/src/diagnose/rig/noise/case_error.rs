@@ -11,7 +11,7 @@
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::{Data, FittedScatter, Noise, PreparedReading, PreparedReadings, WeightedGroup, WeightedValues};
-use crate::rig::{PredictedReading, away_from_edges};
+use crate::rig::{PredictedReading, slope};
 
 /// Steps of Newton's method to the best errors.
 const STEPS: usize = 2;
@@ -81,10 +81,9 @@ impl Data {
         let (mut matrix, mut vector) = (DMatrix::identity(count, count), DVector::zeros(count));
         for &index in readings {
             let [residual, variance] = self.residual(index, &predicted[index], scatter);
-            let p = away_from_edges(predicted[index].value);
             // From log odds to the share itself.
-            let slope =
-                if matches!(self.readings[index].noise, Noise::Counted(_)) { p * (1.0 - p) } else { 1.0 };
+            let is_counted = matches!(self.readings[index].noise, Noise::Counted(_));
+            let slope = slope(is_counted, predicted[index].value);
             let row = DVector::from_iterator(count, self.case_changes.iter().map(|own| slope * own[index]));
             chi_square += residual * residual / variance;
             vector += &row * (residual / variance);
