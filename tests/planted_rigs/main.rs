@@ -137,9 +137,14 @@ fn rigs_with_a_group() {
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
 }
 
+/// Standard error of an angle from a goniometer [degrees].
+const MEASURED_ANGLE: f64 = 0.02;
+
 /// Effects of about ten standard errors are never passed over in silence where a test that knows them notices them: six
 /// readings whose errors only their scatter tells may hide one. Which cause is named is scored by the campaign: from
-/// mean `e_t` alone a friction is not told from a yield ratio.
+/// mean `e_t` alone a friction is not told from a yield ratio. That test takes the case as exact, so each set is judged
+/// with an angle that the rig measured. With one that may be off by the usual 2 degrees, of which 1 degree is as much
+/// as 5 % of friction, the misfit may be laid to the angle, but not hidden.
 #[test]
 #[cfg_attr(
     debug_assertions,
@@ -148,18 +153,21 @@ fn rigs_with_a_group() {
 fn clear_effects_are_noticed() {
     let seed = random::seed();
     let clear = ["calibration-tangential.friction#0", "calibration-normal.e_n#0", "sliding-to-rolling#0"];
-    let recipes = sets::recipes(3).into_iter().filter(|recipe| clear.contains(&recipe.name.as_str()));
-    let judged: Vec<_> = recipes
-        .map(|recipe| {
-            let set = (seed..).map(|seed| recipe.make(seed)).find(|set| set.oracle.notices).unwrap();
-            score::judge(&set, &run::run(&set, seed))
-        })
-        .collect();
-    assert_eq!(judged.len(), clear.len());
-    for one in &judged {
-        println!("{:?} {}: {}", one.verdict, one.name, one.said.join(", "));
-        let silent = matches!(one.verdict, score::Verdict::Missed | score::Verdict::Failed);
-        assert!(!silent, "NEARWALL_TEST_SEED={seed} {}: {}", one.name, one.said.join(" "));
+    let recipes: Vec<_> =
+        sets::recipes(3).into_iter().filter(|recipe| clear.contains(&recipe.name.as_str())).collect();
+    assert_eq!(recipes.len(), clear.len());
+    for recipe in recipes {
+        let mut set = (seed..).map(|seed| recipe.make(seed)).find(|set| set.oracle.notices).unwrap();
+        for error in [None, Some(MEASURED_ANGLE)] {
+            set.plan.lab.source.angle.error = error;
+            let answer = run::run(&set, seed);
+            let one = score::judge(&set, &answer);
+            println!("{:?} {} (angle {error:?}): {}", one.verdict, one.name, one.said.join(", "));
+            let silent = matches!(one.verdict, score::Verdict::Missed | score::Verdict::Failed);
+            let diagnosis = answer.diagnosis.unwrap_or_default();
+            let said = error.is_none() && score::lies_with_the_case(&set, &diagnosis);
+            assert!(!silent || said, "NEARWALL_TEST_SEED={seed} {}: {}", one.name, one.said.join(" "));
+        }
     }
 }
 

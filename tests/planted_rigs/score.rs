@@ -94,6 +94,18 @@ pub fn is_first(names: &[&str], diagnosis: &Value) -> bool {
     }
 }
 
+/// Whether the misfit is said to lie in a number of the case as far as its instrument may be off, and
+/// the planted cause is among the explanations all the same.
+pub fn lies_with_the_case(set: &Set, diagnosis: &Value) -> bool {
+    let blamed = list(diagnosis, "blame").any(|one| text(one, "party").starts_with("case:"));
+    let mut listed = list(diagnosis, "explanations").flat_map(|one| list(one, "causes"));
+    let is_planted = |name: &Value| {
+        let name = name.as_str().unwrap_or_default();
+        set.plan.names.iter().any(|planted| planted.trim_start_matches("calibration:") == name)
+    };
+    blamed && listed.any(is_planted)
+}
+
 fn verdict(set: &Set, diagnosis: &Value) -> Verdict {
     let names = &set.plan.names;
     let first = diagnosis["findings"].get(0);

@@ -23,17 +23,19 @@ pub struct State {
     pub spread: Spread,
     /// Bounds of a normal distribution.
     pub bounds: (f64, f64),
+    /// Standard error of the middle, if the case states one.
+    pub error: Option<f64>,
 }
 
 impl State {
     /// The same for every particle.
     pub fn fixed(middle: f64) -> Self {
-        Self { middle, spread: Spread::Fixed, bounds: (f64::NEG_INFINITY, f64::INFINITY) }
+        Self { middle, spread: Spread::Fixed, bounds: (f64::NEG_INFINITY, f64::INFINITY), error: None }
     }
 
     /// Normal between bounds that do not move with the mean.
     pub fn normal(middle: f64, deviation: f64, bounds: (f64, f64)) -> Self {
-        Self { middle, spread: Spread::Normal { deviation }, bounds }
+        Self { middle, spread: Spread::Normal { deviation }, bounds, error: None }
     }
 
     fn draw(&self, rng: &mut SetRng) -> f64 {
@@ -50,22 +52,25 @@ impl State {
 
     /// The value of its key in a case file.
     fn toml(&self) -> String {
-        let Self { middle, spread, bounds: (low, high) } = self;
-        match spread {
-            Spread::Fixed => format!("{middle:e}"),
+        let Self { middle, spread, bounds: (low, high), error } = self;
+        let keys = match spread {
+            Spread::Fixed if error.is_none() => return format!("{middle:e}"),
+            Spread::Fixed => format!("value = {middle:e}"),
             Spread::Uniform { half } => {
                 let (min, max) = (middle - half, middle + half);
-                format!("{{ distribution = \"uniform\", min = {min:e}, max = {max:e} }}")
+                format!("distribution = \"uniform\", min = {min:e}, max = {max:e}")
             }
             Spread::Normal { deviation } => format!(
-                "{{ distribution = \"normal\", mean = {middle:e}, deviation = {deviation:e}, min = {low:e}, \
-                 max = {high:e} }}"
+                "distribution = \"normal\", mean = {middle:e}, deviation = {deviation:e}, min = {low:e}, \
+                 max = {high:e}"
             ),
             Spread::RosinRammler { exponent, min, max } => format!(
-                "{{ distribution = \"rosin-rammler\", scale = {middle:e}, exponent = {exponent}, min = {min:e}, \
-                 max = {max:e} }}"
+                "distribution = \"rosin-rammler\", scale = {middle:e}, exponent = {exponent}, min = {min:e}, \
+                 max = {max:e}"
             ),
-        }
+        };
+        let stated = error.map_or(String::new(), |error| format!(", error = {error:e}"));
+        format!("{{ {keys}{stated} }}")
     }
 
     /// The end of the key that a setting names.
