@@ -48,12 +48,16 @@ impl RigChoice {
         choice
     }
 
-    /// The additions of the most probable explanation of experiments with these weights, from the fits of
-    /// this choice.
-    pub fn again(&self, study: &RigStudy<'_>, effort: Effort, weights: &[f64]) -> Vec<RigAddition> {
+    /// The explanations of experiments with these weights, from the fits of this choice, and what that search visited.
+    pub fn again(
+        &self,
+        study: &RigStudy<'_>,
+        effort: Effort,
+        weights: &[f64],
+    ) -> (Explanations<RigAddition>, Vec<RigExplanation>) {
         let search = RigSearch::new(study, weights, effort.refitted, &self.visited);
         let visited = explore(&search, vec![search.start()], effort.expanded);
-        explanations(&search, &visited, weights).best_additions().to_vec()
+        (explanations(&search, &visited, weights), visited)
     }
 
     /// Sets what is named, with the gains and p-values of these additions.

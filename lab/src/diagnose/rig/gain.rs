@@ -3,17 +3,23 @@
 //! Experiments are held out as a whole. For each part of them, causes are chosen and fitted on the
 //! others, the model file is written and read again, and predicts the part. The
 //! predictions of the candidates were computed once for all parts; they do not depend on the data.
+//!
+//! Whether unseen experiments refute what is named is asked of all explanations of the others, each with its
+//! probability `p_k`: `ln Σ p_k exp(l_k)`, with `l_k = ln P(all | k) - ln P(others | k)`, beside `l` of the base
+//! model. Parts that take different causes for the most probable one do not refute what they share.
 
 use super::super::constants::QUICK_RIG;
 use super::super::data_split::shuffled;
+use super::super::explanations::{Explanations, FoundExplanation};
 use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interval, sums_by_unit};
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition, moved, shapes};
 use super::choice::RigChoice;
-use super::noise::FittedScatter;
+use super::noise::{FittedScatter, PreparedReadings};
 use super::posterior::Posterior;
-use super::prediction_table::change_case;
+use super::prediction_table::{change_case, predict};
+use super::rig_search::RigExplanation;
 use super::study::RigStudy;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
 use nearwall::model::Model;
@@ -22,13 +28,13 @@ use nearwall::model::Model;
 const EXPERIMENT_PARTS: usize = 6;
 /// Least number of experiments for a gain.
 const LEAST_EXPERIMENTS: usize = 4;
-/// Most that one experiment can speak against a cause [nats]: one of ten named causes may be another one.
-const MOST_OF_ONE: f64 = 2.3;
-
 /// Predictions of experiments by models that have not seen them.
 pub(super) struct HeldOutExperiments {
     /// By reading: the base model and the extended one.
     pub predicted: Vec<[PredictedReading; 2]>,
+    /// Log likelihood of the held-out experiments averaged over all explanations of the others, over that of the base
+    /// model [nats].
+    lead: f64,
 }
 
 impl HeldOutExperiments {
@@ -51,10 +57,13 @@ impl HeldOutExperiments {
         let parts = EXPERIMENT_PARTS.min(count);
         let mut predicted: Vec<[PredictedReading; 2]> =
             study.table.base.iter().map(|one| [*one, *one]).collect();
+        let mut lead = 0.0;
         for part in 0..parts {
             let mut weights = vec![1.0; count];
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
-            let additions = fitted_again(study, whole, posterior, &weights);
+            let (explanations, visited) = whole.again(study, QUICK_RIG, &weights);
+            let additions = fitted_again(study, whole, posterior, explanations.best_additions(), &weights);
+            lead += lead_of(study, &explanations, &visited, &additions, &weights);
             let text = write(&additions);
             let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
             let model = Model::from_toml("extended.toml", &text).map_err(SettingError::from)?;
@@ -66,19 +75,12 @@ impl HeldOutExperiments {
             }
             (study.progress)("experiments held out");
         }
-        Ok(Some(Self { predicted }))
+        Ok(Some(Self { predicted, lead }))
     }
 
-    /// Whether experiments that the models have not seen are predicted worse than by the base model. One
-    /// experiment can speak by [`MOST_OF_ONE`] against it: a part that names another cause may predict no
-    /// rebound at all where it is extrapolated.
-    pub fn is_worse(&self, study: &RigStudy<'_>) -> bool {
-        let weights = vec![1.0; study.data.experiments];
-        let [before, after] = [0, 1].map(|which| {
-            let predicted: Vec<PredictedReading> = self.predicted.iter().map(|pair| pair[which]).collect();
-            study.data.shares(&study.data.prepare(&predicted), &weights)
-        });
-        after.iter().zip(before).map(|(after, before)| (after - before).max(-MOST_OF_ONE)).sum::<f64>() < 0.0
+    /// Whether experiments that the explanations have not seen are predicted worse than by the base model.
+    pub fn is_worse(&self) -> bool {
+        self.lead < 0.0
     }
 
     /// The gains in all kinds of readings that enough experiments have.
@@ -134,19 +136,45 @@ impl HeldOutExperiments {
     }
 }
 
-/// The additions that experiments with these weights choose, fitted to them.
+/// Additions, fitted to experiments with these weights.
 fn fitted_again(
     study: &RigStudy<'_>,
     whole: &RigChoice,
     posterior: &Posterior,
+    additions: &[RigAddition],
     weights: &[f64],
 ) -> Vec<RigAddition> {
-    let additions = whole.again(study, QUICK_RIG, weights);
-    let same = shapes(&additions) == shapes(&whole.additions());
+    let same = shapes(additions) == shapes(&whole.additions());
     match posterior.best(study, weights).filter(|_| same) {
-        Some(at) => moved(&additions, &at),
-        None => study.fit(&additions, weights),
+        Some(at) => moved(additions, &at),
+        None => study.fit(additions, weights),
     }
+}
+
+/// Log likelihood of the experiments without a weight, averaged over the explanations of the others, over that of
+/// the base model [nats]. `best` are the fitted additions of the most probable explanation.
+fn lead_of(
+    study: &RigStudy<'_>,
+    explanations: &Explanations<RigAddition>,
+    visited: &[RigExplanation],
+    best: &[RigAddition],
+    weights: &[f64],
+) -> f64 {
+    let (data, all) = (&study.data, vec![1.0; weights.len()]);
+    let of = |prepared: &PreparedReadings| {
+        let [all, seen] = [&all, weights].map(|weights| data.score(prepared, data.values(), weights));
+        all - seen
+    };
+    let base = of(&study.table.base_prepared);
+    let likelihood = |(place, one): (usize, &FoundExplanation<RigAddition>)| {
+        let fitted = if place == 0 { predict(study.forward, best).ok() } else { None };
+        let lead = match fitted {
+            Some(predicted) => of(&data.prepare(&predicted)) - base,
+            None => of(&visited[one.place].fitted.prepared) - base,
+        };
+        one.probability * lead.exp()
+    };
+    explanations.all().iter().enumerate().map(likelihood).sum::<f64>().ln()
 }
 
 /// Predictions of all readings by a model file: its terms and changed numbers on the model of each

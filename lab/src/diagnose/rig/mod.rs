@@ -100,7 +100,7 @@ pub fn diagnose_rig(
     let mut posterior = Posterior::new(&study, &choice.additions(), &all);
     let held_out = HeldOutExperiments::new(&study, &choice, &posterior, &write)?;
     let mut refuted = Vec::new();
-    if held_out.as_ref().is_some_and(|held_out| held_out.is_worse(&study)) {
+    if held_out.as_ref().is_some_and(HeldOutExperiments::is_worse) {
         // What unseen experiments refute is not named.
         refuted = choice.named.iter().map(|one| one.addition.name()).collect();
         choice = choice.without_causes();
