@@ -40,8 +40,8 @@ const MARKER_SHAPES: [MarkerShape; 7] = [
     MarkerShape::Cross,
     MarkerShape::Plus,
 ];
-/// Gaps of lines; short enough to be seen in the legend.
-const DASHES: [&str; 4] = ["", "5 2", "7 2 2 2", "2 2"];
+/// Gaps of lines, short enough to be seen in the legend: two each of three walls of a case.
+const DASHES: [&str; 6] = ["", "5 2", "7 2 2 2", "2 2", "4 1", "6 2 2 2 2 2"];
 /// Letters that fit side by side under an x axis.
 const WORDS_LETTERS: usize = 60;
 
