@@ -2,10 +2,10 @@
 //!
 //! The case is simulated with the base law at a few places of the number, with the same random
 //! numbers. Between them the change of a reading is interpolated by cubic curves that do not
-//! overshoot (Fritsch and Carlson 1980, with the slopes of Fritsch and Butland 1984). In a gas with random motion a
-//! change `c` has an error of its own, with the variance `v` from the blocks of particles: `c max(0, 1 - v/c²)` is what
-//! is taken of it (James and Stein's estimate, which is 0 for what may be noise alone).
+//! overshoot (Fritsch and Carlson 1980, with the slopes of Fritsch and Butland 1984). In a gas with random motion all
+//! places together tell a smooth one ([`NoisyChange`]).
 
+use super::noisy_change::{NoisyChange, NoisyPlace};
 use super::tally::{PredictedReading, away_from_edges};
 
 /// Places of the number, in its standard errors: within three the instrument errs.
@@ -36,38 +36,48 @@ pub(super) type Moved = (f64, Vec<PredictedReading>);
 pub struct CaseChanges {
     /// Ascending, with 0 [standard errors].
     at: Vec<f64>,
-    /// By place and reading: the change, of a share in log odds, and its variance.
-    changes: Vec<Vec<[f64; 2]>>,
+    /// By place and reading: the change, of a share in log odds.
+    changes: Vec<Vec<f64>>,
+    /// By reading: its changes with their noise at the places other than 0 at which it exists.
+    noisy: Vec<Vec<NoisyPlace>>,
+    /// By reading: the curve through these; none without noise.
+    smooth: Vec<Option<NoisyChange>>,
 }
 
 impl CaseChanges {
     /// Adds further places, from the predictions at the case's own number and there. A reading
     /// that does not exist at a place, as a rebound where all are caught, changes no further.
     pub(super) fn add(&mut self, shares: &[bool], base: &[PredictedReading], moved: &[Moved]) {
-        let of = |predicted: &[PredictedReading]| -> Vec<[f64; 2]> {
+        let of = |(at, predicted): &Moved| -> Vec<NoisyPlace> {
             let change = |((share, from), to): ((&bool, &PredictedReading), &PredictedReading)| {
                 let change = scale(*share, to.value) - scale(*share, from.value);
                 let slope = slope(*share, 0.5 * (from.value + to.value));
-                let variance = from.variance_of_difference(to) / (slope * slope);
-                let kept = if variance > 0.0 { (1.0 - variance / (change * change)).max(0.0) } else { 1.0 };
-                [kept * change, variance]
+                let blocks = std::array::from_fn(|block| (to.blocks[block] - from.blocks[block]) / slope);
+                NoisyPlace { at: *at, change, blocks }
             };
             shares.iter().zip(base).zip(predicted).map(change).collect()
         };
         if self.at.is_empty() {
-            (self.at, self.changes) = (vec![0.0], vec![vec![[0.0; 2]; shares.len()]]);
+            (self.at, self.changes) = (vec![0.0], vec![vec![0.0; shares.len()]]);
+            self.noisy = vec![Vec::new(); shares.len()];
         }
         let known = std::mem::take(&mut self.at).into_iter().zip(std::mem::take(&mut self.changes));
-        let mut all: Vec<(f64, Vec<[f64; 2]>)> = known.collect();
-        all.extend(moved.iter().map(|(widths, predicted)| (*widths, of(predicted))));
+        let mut all: Vec<(f64, Vec<f64>)> = known.collect();
+        for place in moved {
+            let found = of(place);
+            let exists = found.iter().zip(&mut self.noisy).filter(|(one, _)| one.change.is_finite());
+            exists.for_each(|(one, known)| known.push(*one));
+            all.push((place.0, found.iter().map(|one| one.change).collect()));
+        }
+        self.smooth = self.noisy.iter().map(|places| NoisyChange::new(places)).collect();
         all.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (at, mut changes): (Vec<f64>, Vec<Vec<[f64; 2]>>) = all.into_iter().unzip();
+        let (at, mut changes): (Vec<f64>, Vec<Vec<f64>>) = all.into_iter().unzip();
         let middle = at.iter().position(|widths| *widths == 0.0).unwrap_or(0);
         let outwards = (middle + 1..at.len()).map(|place| (place, place - 1));
         let inwards = (0..middle).rev().map(|place| (place, place + 1));
         for (place, before) in outwards.chain(inwards) {
             let known = changes[before].clone();
-            for (one, known) in changes[place].iter_mut().zip(known).filter(|(one, _)| !one[0].is_finite()) {
+            for (one, known) in changes[place].iter_mut().zip(known).filter(|(one, _)| !one.is_finite()) {
                 *one = known;
             }
         }
@@ -87,21 +97,22 @@ impl CaseChanges {
         }
         let count = self.at.len();
         if count < 2 {
-            return self.changes.first().cloned().unwrap_or_default();
+            return vec![[0.0; 2]; self.smooth.len()];
         }
         let after = self.at.partition_point(|place| *place <= widths).clamp(1, count - 1);
         let (low, step) = (after - 1, self.at[after] - self.at[after - 1]);
         let share = ((widths - self.at[low]) / step).clamp(0.0, 1.0);
-        let outer = if widths < 0.0 { low } else { after };
-        let nearer = (widths / self.at[outer]).powi(2).min(1.0);
         let one = |reading: usize| {
-            let [from, to] = [low, after].map(|place| self.changes[place][reading][0]);
+            if let Some(smooth) = &self.smooth[reading] {
+                return smooth.at(widths);
+            }
+            let [from, to] = [low, after].map(|place| self.changes[place][reading]);
             let slopes = [self.slope(low, reading), self.slope(after, reading)];
             let rest = 1.0 - share;
             let change = from * (1.0 + 2.0 * share) * rest * rest
                 + to * (3.0 - 2.0 * share) * share * share
                 + step * share * rest * (slopes[0] * rest - slopes[1] * share);
-            [change, nearer * self.changes[outer][reading][1]]
+            [change, 0.0]
         };
         (0..self.changes[low].len()).map(one).collect()
     }
@@ -111,7 +122,7 @@ impl CaseChanges {
     fn slope(&self, place: usize, reading: usize) -> f64 {
         let part = |low: usize| {
             let step = self.at[low + 1] - self.at[low];
-            (step, (self.changes[low + 1][reading][0] - self.changes[low][reading][0]) / step)
+            (step, (self.changes[low + 1][reading] - self.changes[low][reading]) / step)
         };
         if place == 0 {
             return part(0).1;
@@ -156,20 +167,6 @@ pub fn changed(is_share: bool, value: f64, change: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::simulate::BLOCKS;
-
-    /// A change by 0.1 whose blocks differ by a standard error of 0.05 each, 0.2 in all, is none; one by 1 is 0.96.
-    #[test]
-    fn noise_is_no_change() {
-        for (change, kept) in [(0.1, 0.0), (1.0, 0.96)] {
-            let mut moved = reading(change);
-            moved.blocks = [0.05; BLOCKS];
-            let mut changes = CaseChanges::default();
-            changes.add(&[false], &[reading(0.0)], &[(-3.0, vec![reading(0.0)]), (3.0, vec![moved])]);
-            let [found, variance] = changes.at(3.0)[0];
-            assert!((found - kept).abs() < 1e-12 && (variance - 0.04).abs() < 1e-12, "{found} {variance}");
-            assert!((changes.at(1.5)[0][1] - 0.01).abs() < 1e-12);
-        }
-    }
 
     #[test]
     fn places_lie_around_a_range() {

@@ -14,6 +14,7 @@ mod case_number;
 mod case_text;
 mod draws;
 mod missing_force;
+mod noisy_change;
 mod number_name;
 mod recorded_flight;
 mod recording;
