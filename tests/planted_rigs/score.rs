@@ -99,10 +99,7 @@ pub fn is_first(names: &[&str], diagnosis: &Value) -> bool {
 pub fn lies_with_the_case(set: &Set, diagnosis: &Value) -> bool {
     let blamed = list(diagnosis, "blame").any(|one| text(one, "party").starts_with("case:"));
     let mut listed = list(diagnosis, "explanations").flat_map(|one| list(one, "causes"));
-    let is_planted = |name: &Value| {
-        let name = name.as_str().unwrap_or_default();
-        set.plan.names.iter().any(|planted| planted.trim_start_matches("calibration:") == name)
-    };
+    let is_planted = |name: &Value| name.as_str().is_some_and(|name| is_one_of(&set.plan.names, name, &[]));
     blamed && listed.any(is_planted)
 }
 

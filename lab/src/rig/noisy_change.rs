@@ -9,7 +9,7 @@
 
 use crate::simulate::BLOCKS;
 
-/// Most powers of a polynomial; each needs a place of its own, from the third on two.
+/// Most powers of a polynomial: no more than places, and the third only with a fourth place.
 const POWERS: usize = 3;
 
 /// A change at a place of a number.
@@ -43,6 +43,18 @@ struct Term {
 impl Term {
     fn at(&self, place: f64) -> f64 {
         self.powers.iter().rev().fold(0.0, |sum, own| (sum + own) * place)
+    }
+
+    /// The same with its coefficient, from places with their weights.
+    fn fitted(self, weighted: &[(f64, &NoisyPlace)]) -> Self {
+        let square: f64 = weighted.iter().map(|(weight, one)| weight * self.at(one.at).powi(2)).sum();
+        let sum = |of: &dyn Fn(&NoisyPlace) -> f64| {
+            weighted.iter().map(|(weight, one)| weight * self.at(one.at) * of(one)).sum::<f64>() / square
+        };
+        let found = sum(&|one| one.change);
+        let variance: f64 = (0..BLOCKS).map(|block| sum(&|one| one.blocks[block]).powi(2)).sum();
+        let kept = if variance > 0.0 { (1.0 - variance / (found * found)).max(0.0) } else { 1.0 };
+        Self { coefficient: kept * found, variance, ..self }
     }
 }
 
@@ -83,20 +95,6 @@ impl NoisyChange {
             let q = term.at(place);
             [change + term.coefficient * q, variance + term.variance * q * q]
         })
-    }
-}
-
-impl Term {
-    /// The same with its coefficient.
-    fn fitted(self, weighted: &[(f64, &NoisyPlace)]) -> Self {
-        let square: f64 = weighted.iter().map(|(weight, one)| weight * self.at(one.at).powi(2)).sum();
-        let sum = |of: &dyn Fn(&NoisyPlace) -> f64| {
-            weighted.iter().map(|(weight, one)| weight * self.at(one.at) * of(one)).sum::<f64>() / square
-        };
-        let found = sum(&|one| one.change);
-        let variance: f64 = (0..BLOCKS).map(|block| sum(&|one| one.blocks[block]).powi(2)).sum();
-        let kept = if variance > 0.0 { (1.0 - variance / (found * found)).max(0.0) } else { 1.0 };
-        Self { coefficient: kept * found, variance, ..self }
     }
 }
 

@@ -18,7 +18,7 @@ use super::addition::{Kind, RigAddition, moved, shapes};
 use super::choice::RigChoice;
 use super::noise::{FittedScatter, PreparedReadings};
 use super::posterior::Posterior;
-use super::prediction_table::{change_case, predict};
+use super::prediction_table::change_case;
 use super::rig_search::RigExplanation;
 use super::study::RigStudy;
 use crate::rig::{PredictedReading, PredictionError, SettingError};
@@ -28,6 +28,7 @@ use nearwall::model::Model;
 const EXPERIMENT_PARTS: usize = 6;
 /// Least number of experiments for a gain.
 const LEAST_EXPERIMENTS: usize = 4;
+
 /// Predictions of experiments by models that have not seen them.
 pub(super) struct HeldOutExperiments {
     /// By reading: the base model and the extended one.
@@ -63,11 +64,11 @@ impl HeldOutExperiments {
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
             let (explanations, visited) = whole.again(study, QUICK_RIG, &weights);
             let additions = fitted_again(study, whole, posterior, explanations.best_additions(), &weights);
-            lead += lead_of(study, &explanations, &visited, &additions, &weights);
-            let text = write(&additions);
-            let Some(text) = text.filter(|_| !additions.is_empty()) else { continue };
-            let model = Model::from_toml("extended.toml", &text).map_err(SettingError::from)?;
-            let after = predict_file(study, &model, &additions)?;
+            let text = write(&additions).filter(|_| !additions.is_empty());
+            let file = text.map(|text| Model::from_toml("extended.toml", &text).map_err(SettingError::from));
+            let after = file.transpose()?.map(|file| predict_file(study, &file, &additions)).transpose()?;
+            lead += lead_of(study, &explanations, &visited, after.as_deref(), &weights);
+            let Some(after) = after else { continue };
             for (index, datum) in study.data.readings.iter().enumerate() {
                 if weights[datum.experiment] == 0.0 {
                     predicted[index][1] = after[index];
@@ -152,12 +153,12 @@ fn fitted_again(
 }
 
 /// Log likelihood of the experiments without a weight, averaged over the explanations of the others, over that of
-/// the base model [nats]. `best` are the fitted additions of the most probable explanation.
+/// the base model [nats]. `after` are the predictions by the file of the most probable one.
 fn lead_of(
     study: &RigStudy<'_>,
     explanations: &Explanations<RigAddition>,
     visited: &[RigExplanation],
-    best: &[RigAddition],
+    after: Option<&[PredictedReading]>,
     weights: &[f64],
 ) -> f64 {
     let (data, all) = (&study.data, vec![1.0; weights.len()]);
@@ -166,13 +167,12 @@ fn lead_of(
         all - seen
     };
     let base = of(&study.table.base_prepared);
-    let likelihood = |(place, one): (usize, &FoundExplanation<RigAddition>)| {
-        let fitted = if place == 0 { predict(study.forward, best).ok() } else { None };
-        let lead = match fitted {
-            Some(predicted) => of(&data.prepare(&predicted)) - base,
-            None => of(&visited[one.place].fitted.prepared) - base,
+    let likelihood = |(rank, one): (usize, &FoundExplanation<RigAddition>)| {
+        let held_out = match after {
+            Some(predicted) if rank == 0 => of(&data.prepare(predicted)),
+            _ => of(&visited[one.place].fitted.prepared),
         };
-        one.probability * lead.exp()
+        one.probability * (held_out - base).exp()
     };
     explanations.all().iter().enumerate().map(likelihood).sum::<f64>().ln()
 }
