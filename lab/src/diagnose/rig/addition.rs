@@ -105,6 +105,14 @@ impl RigAddition {
         Some((*place, number, self.values().first().copied().unwrap_or(PRESENT)))
     }
 
+    /// A number of the case farther by so many standard errors, with half of its interval.
+    pub fn moved_on(&self, widths: f64, half: f64) -> Self {
+        let (Some((_, _, now)), [axis]) = (self.case_number(), &self.axes[..]) else { return self.clone() };
+        let widths = now + widths;
+        let at = axis.coordinate(widths).clamp(0.0, 1.0);
+        Self { intervals: vec![[widths - half, widths + half]], ..self.moved(&[at]) }
+    }
+
     /// The same at other coordinates.
     pub fn moved(&self, at: &[f64]) -> Self {
         Self { at: at.to_vec(), ..self.clone() }

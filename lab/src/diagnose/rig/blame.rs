@@ -120,6 +120,31 @@ pub(super) fn blame(study: &RigStudy<'_>, choice: &RigChoice) -> Result<Vec<Blam
     Ok(all)
 }
 
+/// Additions with each number of the case where the addition and the error of its instrument put it together: both move
+/// the same number, and readings with these weights by experiment tell only their sum.
+///
+/// # Errors
+/// Why an impact cannot be decided.
+pub(super) fn settled(
+    study: &RigStudy<'_>,
+    additions: Vec<RigAddition>,
+    weights: &[f64],
+) -> Result<Vec<RigAddition>, PredictionError> {
+    if additions.iter().all(|one| one.case_number().is_none()) {
+        return Ok(additions);
+    }
+    let whole = predict(study.forward, &additions)?;
+    let readings = study.data.readings.iter().enumerate();
+    let seen: Vec<usize> =
+        readings.filter(|(_, one)| weights[one.experiment] > 0.0).map(|(index, _)| index).collect();
+    let errors = study.data.case_fit(&seen, &whole, &study.data.scatter(&whole, weights)).errors;
+    let of = |addition: RigAddition| match addition.case_number() {
+        Some((place, ..)) => addition.moved_on(errors[place][0], NORMAL_95 * errors[place][1]),
+        None => addition,
+    };
+    Ok(additions.into_iter().map(of).collect())
+}
+
 /// By how much chi-square falls by the wall law of these additions, then by each number of the case.
 fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<Carried>), PredictionError> {
     let (case, law): (Vec<_>, Vec<_>) =

@@ -15,6 +15,7 @@ use super::super::gain::{CROSS_VALIDATED, SHARED_FITS, bootstrap, student_interv
 use super::super::part::{LawParameter, Part};
 use super::super::record::Gain;
 use super::addition::{Kind, RigAddition, moved, shapes};
+use super::blame::settled;
 use super::choice::RigChoice;
 use super::noise::{FittedScatter, PreparedReadings};
 use super::posterior::Posterior;
@@ -64,6 +65,7 @@ impl HeldOutExperiments {
             order.iter().skip(part).step_by(parts).for_each(|&one| weights[one] = 0.0);
             let (explanations, visited) = whole.again(study, QUICK_RIG, &weights);
             let additions = fitted_again(study, whole, posterior, explanations.best_additions(), &weights);
+            let additions = settled(study, additions, &weights)?;
             let text = write(&additions).filter(|_| !additions.is_empty());
             let file = text.map(|text| Model::from_toml("extended.toml", &text).map_err(SettingError::from));
             let after = file.transpose()?.map(|file| predict_file(study, &file, &additions)).transpose()?;

@@ -107,7 +107,7 @@ pub fn diagnose_rig(
         posterior = Posterior::default();
     }
     set_intervals(&mut choice.named, &posterior);
-    let additions = choice.additions();
+    let additions = blame::settled(&study, choice.additions(), &all)?;
     let text = extended_text(model, &additions, &valid);
     let text = text.map_err(|error| RigError::Unextendable(error.to_string()))?;
     let next = match case {
@@ -117,6 +117,7 @@ pub fn diagnose_rig(
     let drawn = posterior.draws(draws, options.seed);
     let draws = drawn.iter().filter_map(|at| write(&moved(&additions, at))).collect();
     let extended_case = case.and_then(|case| extended_case(case, &additions));
+    choice.named.iter_mut().zip(additions).for_each(|(named, settled)| named.addition = settled);
     let found =
         report::RigFindings { study: &study, choice, refuted, held_out, text, extended_case, draws, next };
     Ok(found.record(data, options)?)
