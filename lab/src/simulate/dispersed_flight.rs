@@ -8,8 +8,8 @@
 //! `c = v_0 - d_0 + s/b`.
 //!
 //! `d_1` is taken where a constant drive would lead (Heun). A step is halved while response or drive change by more
-//! than a twentieth, in turbulence a tenth, and displace the particle by more than a hundredth of its diameter; it is no
-//! longer than the walk may be taken as constant ([`nearwall::transport::langevin`]). Brownian motion adds its exact
+//! than a twentieth, in turbulence a tenth, and displace the particle by more than a hundredth of its diameter; it is
+//! no longer than the walk may be taken as constant ([`nearwall::transport::langevin`]). Brownian motion adds its exact
 //! displacement; whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the
 //! seed, the number of the particle and its step alone.
 
@@ -31,9 +31,9 @@ use nearwall::transport::thermophoresis::{self, ThermalGas};
 const STEP_LIMIT: usize = 20_000_000;
 /// Shortest flight in steps, so that no short piece of a field is skipped.
 const FEWEST_STEPS: f64 = 200.0;
-/// Largest change of drive and response in a step, over their size [1]: in still or laminar gas, and in turbulence, where
-/// the walk limits most steps and a larger share saves no more (`tutorials/standalone/duct.toml` with 2000 grains of 10 µm:
-/// 1.64 million steps with 0.05, 1.04 with 0.1, 1.01 with 0.2 and 0.4; 349, 333, 338 and 335 of them settle).
+/// Largest change of drive and response in a step, over their size [1]: in still or laminar gas, and in turbulence,
+/// where the walk limits most steps and a larger share saves no more (`tutorials/standalone/duct.toml`, 2000 grains of
+/// 10 µm: 1.64 million steps with 0.05, 1.04 with 0.1, 1.01 with 0.2 and 0.4; 349, 333, 338 and 335 of them settle).
 const LARGEST_CHANGES: [f64; 2] = [0.05, 0.1];
 /// Displacement by a change of drive or response that need not be looked at, over the diameter [1]. In a corner both
 /// jump from one wall to the other, however short the step.

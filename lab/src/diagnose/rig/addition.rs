@@ -105,12 +105,12 @@ impl RigAddition {
         Some((*place, number, self.values().first().copied().unwrap_or(PRESENT)))
     }
 
-    /// A number of the case farther by so many standard errors, with half of its interval.
+    /// A number of the case farther by so many standard errors, as far as it is searched, with half of its interval.
     pub fn moved_on(&self, widths: f64, half: f64) -> Self {
         let (Some((_, _, now)), [axis]) = (self.case_number(), &self.axes[..]) else { return self.clone() };
-        let widths = now + widths;
-        let at = axis.coordinate(widths).clamp(0.0, 1.0);
-        Self { intervals: vec![[widths - half, widths + half]], ..self.moved(&[at]) }
+        let moved = self.moved(&[axis.coordinate(now + widths).clamp(0.0, 1.0)]);
+        let intervals = moved.values().iter().map(|value| [value - half, value + half]).collect();
+        Self { intervals, ..moved }
     }
 
     /// The same at other coordinates.
