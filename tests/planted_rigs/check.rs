@@ -101,6 +101,10 @@ fn generator_and_predict_agree() {
     }
 }
 
+/// Seeds of the simulation behind a diagnosis: one of them may be off by what is left to chance, the mean of all is so
+/// only where the generator and the diagnosis disagree.
+const CASE_SEEDS: [u64; 4] = [1, 2, 3, 4];
+
 /// Where particles hit several times, what the diagnosis predicts for the base agrees with the
 /// generator: far better than a reading.
 #[test]
@@ -108,16 +112,40 @@ fn generator_and_predict_agree() {
 fn the_diagnosis_predicts_the_base() {
     let seed = random::seed();
     let nulls = (0..27).map(|index| made(&format!("null#{index}"), seed));
+    let (mut squares, mut count) = (0.0, 0_u32);
     for set in nulls.filter(|set| !set.lab().rig.hits_once()) {
-        let readings: Vec<_> = set.experiments.iter().flat_map(|one| &one.readings).collect();
         let truths = true_readings(&set, seed);
-        let both = truths.iter().zip(base_predictions(&set));
-        let off: Vec<f64> =
-            both.zip(readings).map(|((truth, base), reading)| (base - truth) / reading.sigma).collect();
-        let root_mean_square = (off.iter().map(|one| one * one).sum::<f64>() / off.len() as f64).sqrt();
-        println!("{}: {} readings, off by {root_mean_square:.2} standard errors", set.name, off.len());
-        assert!(root_mean_square < 0.3, "NEARWALL_TEST_SEED={seed} {}: {off:?}", set.name);
+        let mut off = errors(&set, &truths, &base_predictions(&set, CASE_SEEDS[0]));
+        println!(
+            "{}: {} readings, off by {:.2} standard errors",
+            set.name,
+            off.len(),
+            root_mean_square(&off)
+        );
+        squares += off.iter().map(|one| one * one).sum::<f64>();
+        count += off.len() as u32;
+        if root_mean_square(&off) > 0.3 {
+            let all = CASE_SEEDS.map(|case_seed| base_predictions(&set, case_seed));
+            let mean = |index| all.iter().map(|one: &Vec<f64>| one[index]).sum::<f64>() / all.len() as f64;
+            off = errors(&set, &truths, &(0..off.len()).map(mean).collect::<Vec<f64>>());
+            println!("{}: the mean of four is off by {:.2}", set.name, root_mean_square(&off));
+        }
+        assert!(root_mean_square(&off) < 0.3, "NEARWALL_TEST_SEED={seed} {}: {off:?}", set.name);
     }
+    let all = (squares / f64::from(count)).sqrt();
+    println!("all: {count} readings, off by {all:.2} standard errors");
+    assert!(all < 0.3, "NEARWALL_TEST_SEED={seed}: {all}");
+}
+
+/// What predictions are off by, in standard errors of the readings.
+fn errors(set: &Set, truths: &[f64], predicted: &[f64]) -> Vec<f64> {
+    let readings = set.experiments.iter().flat_map(|one| &one.readings);
+    let both = truths.iter().zip(predicted).zip(readings);
+    both.map(|((truth, predicted), reading)| (predicted - truth) / reading.sigma).collect()
+}
+
+fn root_mean_square(values: &[f64]) -> f64 {
+    (values.iter().map(|one| one * one).sum::<f64>() / values.len() as f64).sqrt()
 }
 
 /// What the base of a world gives, from so many particles that their sampling is no part of a difference.
@@ -133,9 +161,12 @@ fn true_readings(set: &Set, seed: u64) -> Vec<f64> {
 }
 
 /// What the forward model of `diagnose` predicts for the readings of a set with the base model.
-fn base_predictions(set: &Set) -> Vec<f64> {
+fn base_predictions(set: &Set, case_seed: u64) -> Vec<f64> {
     let folder = Folder::of(&set.name);
     run::write(set, &folder.path);
+    let lab = set.lab();
+    let text = lab.rig.case(&lab.source, "base.toml", COUNT, case_seed);
+    std::fs::write(folder.path.join("case.toml"), text).unwrap();
     let measured = std::fs::File::open(folder.path.join("measured.csv")).unwrap();
     let data = RigMeasurements::read("measured.csv", measured).unwrap();
     let case = CaseText::from_file(&folder.path.join("case.toml")).unwrap();
