@@ -39,7 +39,9 @@ fn written_and_run(kind: &str, result: &str) -> tempfile::TempDir {
 #[test]
 fn the_cases_of_the_fields_run() {
     for kind in ["gasifier", "tokamak"] {
-        written_and_run(kind, "results/report.html");
+        let folder = written_and_run(kind, "results/report.html");
+        let summary = std::fs::read_to_string(folder.path().join(kind).join("results/summary.json")).unwrap();
+        assert!(!summary.contains("first_trouble"), "a particle could not be followed: {summary}");
     }
 }
 

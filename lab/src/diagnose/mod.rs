@@ -17,6 +17,7 @@ mod column_product;
 pub mod comparison;
 mod constant_capture;
 mod constants;
+mod copies;
 mod covariance;
 mod curve;
 mod data_split;
@@ -236,12 +237,12 @@ fn unextendable(error: impl std::fmt::Display) -> DiagnosisError {
 }
 
 /// The data without rows that the base model refuses, as at a temperature outside a property's range, and without
-/// implausible rows.
+/// implausible rows and copies.
 ///
 /// # Errors
 /// [`DiagnosisError::TooFewRows`].
 fn usable(base: &Model, data: &Measurements) -> Result<Measurements, DiagnosisError> {
-    let data = data.without(|row| fault(base, row));
+    let data = copies::without_copies(&data.without(|row| fault(base, row)));
     if data.rows.len() < LEAST_ROWS {
         let (used, read) = (data.rows.len(), data.read);
         let reasons = first_reasons(&data.rejected);

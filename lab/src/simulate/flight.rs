@@ -2,7 +2,8 @@
 //!
 //! Dormand–Prince 5(4) with its own step control integrates [`super::motion`]; contacts are found on its
 //! dense output. Where drag or heating are so fast that they alone keep its steps short, as of particles of some
-//! micrometres, Radau IIA of order 5 goes on, whose steps follow the flow.
+//! micrometres, Radau IIA of order 5 goes on, whose steps follow the flow; where its iteration does not converge, the
+//! first takes over again.
 
 use differential_equations::error::Error;
 use differential_equations::methods::{ExplicitRungeKutta, ImplicitRungeKutta};
@@ -66,20 +67,23 @@ pub(super) fn fly_timed(
     stays: &mut StayTimes,
 ) -> Result<FlightEnd, SimulationError> {
     let tolerances = || absolute_tolerances(tolerance, &motion.body);
-    let explicit = ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
     let flight = Flight { motion, surfaces, until };
-    let explicit = Method { solver: explicit, is_implicit: false };
-    match flight.follow(explicit, time, start, stays)? {
-        Flown::Finished(end) => Ok(end),
-        Flown::Stiff(now, here) => {
-            let implicit =
-                ImplicitRungeKutta::radau5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
-            let implicit = Method { solver: implicit, is_implicit: true };
-            match flight.follow(implicit, now, &here, stays)? {
-                Flown::Finished(end) => Ok(end),
-                Flown::Stiff(..) => Err(SimulationError::NotFinite),
-            }
-        }
+    let (mut now, mut here) = (time, *start);
+    loop {
+        let explicit = ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
+        let explicit = Method { solver: explicit, is_implicit: false };
+        let (later, there) = match flight.follow(explicit, now, &here, stays)? {
+            Flown::Finished(end) => return Ok(end),
+            Flown::HandedOver(later, there) => (later, there),
+        };
+        let implicit = ImplicitRungeKutta::radau5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
+        let implicit = Method { solver: implicit, is_implicit: true };
+        (now, here) = match flight.follow(implicit, later, &there, stays)? {
+            Flown::Finished(end) => return Ok(end),
+            // Neither method gets on from here.
+            Flown::HandedOver(last, _) if last <= now => return Err(SimulationError::NotFinite),
+            Flown::HandedOver(last, there) => (last, there),
+        };
     }
 }
 
@@ -99,8 +103,8 @@ struct Flight<'a> {
 /// How far an integration came.
 enum Flown {
     Finished(FlightEnd),
-    /// Time [s] and state from which an implicit method should go on.
-    Stiff(f64, ParticleState),
+    /// Time [s] and state from which the other method should go on.
+    HandedOver(f64, ParticleState),
 }
 
 impl Flight<'_> {
@@ -134,7 +138,7 @@ impl Flight<'_> {
             match try_step(&mut solver, motion)? {
                 StepAttempt::Taken => taken += 1,
                 StepAttempt::Rejected => continue,
-                StepAttempt::Stiff => return Ok(Flown::Stiff(solver.t(), *solver.y())),
+                StepAttempt::HandedOver => return Ok(Flown::HandedOver(solver.t(), *solver.y())),
             }
             let step = Step { times: [solver.t_prev(), solver.t()], states: [*solver.y_prev(), *solver.y()] };
             let mut at = |time| solver.interpolate(time).unwrap_or(step.states[1]);
@@ -146,7 +150,7 @@ impl Flight<'_> {
             if let Some(arrival) = arrival {
                 return Ok(Flown::Finished(arrival));
             } else if !is_implicit && taken % LOOKED_AT == 0 && self.is_slow(&step) {
-                return Ok(Flown::Stiff(solver.t(), *solver.y()));
+                return Ok(Flown::HandedOver(solver.t(), *solver.y()));
             }
         }
     }
@@ -164,8 +168,9 @@ enum StepAttempt {
     Taken,
     /// Too long; the solver tries a shorter one.
     Rejected,
-    /// Not taken: stability, not accuracy, keeps the steps short.
-    Stiff,
+    /// Not taken: stability, not accuracy, keeps an explicit step short, or the iteration of an implicit one does not
+    /// converge.
+    HandedOver,
 }
 
 fn try_step<S: PathSolver>(
@@ -178,7 +183,7 @@ fn try_step<S: PathSolver>(
         }
         Ok(_) if matches!(solver.status(), Status::RejectedStep) => Err(SimulationError::NotFinite),
         Ok(_) if solver.y().iter().all(|value| value.is_finite()) => Ok(StepAttempt::Taken),
-        Err(Error::Stiffness { .. }) => Ok(StepAttempt::Stiff),
+        Err(Error::Stiffness { .. } | Error::StepSize { .. }) => Ok(StepAttempt::HandedOver),
         Err(Error::MaxSteps { .. }) => Err(SimulationError::TooManySteps(STEP_LIMIT)),
         _ => Err(SimulationError::NotFinite),
     }
