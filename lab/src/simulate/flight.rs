@@ -34,6 +34,8 @@ const LOOKED_AT: usize = 30;
 /// Step over the time in which a particle takes on what the gas has, from which on that is so; the method is stable
 /// up to 3.3 [1].
 const NEAR_LIMIT: f64 = 2.0;
+/// Tolerance from which on only relative errors of velocity, temperature and conversion grow with it [1].
+const FINE: f64 = 1e-6;
 /// Most iterations until a contact is found.
 const CONTACT_ITERATIONS: u32 = 80;
 /// Gap at a contact, in diameters.
@@ -66,18 +68,18 @@ pub(super) fn fly_timed(
     tolerance: f64,
     stays: &mut StayTimes,
 ) -> Result<FlightEnd, SimulationError> {
-    let tolerances = || absolute_tolerances(tolerance, &motion.body);
+    let [relative, absolute] = tolerances(tolerance, &motion.body);
     let flight = Flight { motion, surfaces, until };
     let (mut now, mut here) = (time, *start);
     loop {
-        let explicit = ExplicitRungeKutta::dopri5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
-        let explicit = Method { solver: explicit, is_implicit: false };
+        let explicit = ExplicitRungeKutta::dopri5().rtol(relative.clone()).atol(absolute.clone());
+        let explicit = Method { solver: explicit.max_steps(STEP_LIMIT), is_implicit: false };
         let (later, there) = match flight.follow(explicit, now, &here, stays)? {
             Flown::Finished(end) => return Ok(end),
             Flown::HandedOver(later, there) => (later, there),
         };
-        let implicit = ImplicitRungeKutta::radau5().rtol(tolerance).atol(tolerances()).max_steps(STEP_LIMIT);
-        let implicit = Method { solver: implicit, is_implicit: true };
+        let implicit = ImplicitRungeKutta::radau5().rtol(relative.clone()).atol(absolute.clone());
+        let implicit = Method { solver: implicit.max_steps(STEP_LIMIT), is_implicit: true };
         (now, here) = match flight.follow(implicit, later, &there, stays)? {
             Flown::Finished(end) => return Ok(end),
             // Neither method gets on from here.
@@ -189,11 +191,16 @@ fn try_step<S: PathSolver>(
     }
 }
 
-/// Errors that are small whatever the value: a thousandth of a diameter, 0.1 mm/s, 0.01 K, 1e-5, all at a tolerance of
-/// 1e-6.
-fn absolute_tolerances(tolerance: f64, body: &Body) -> Vec<f64> {
+/// Relative and absolute tolerances of a state. Absolute errors are small whatever the value: a thousandth of a
+/// diameter, 0.1 mm/s, 0.01 K, 1e-5, all at a tolerance of 1e-6. A larger tolerance leaves them, and the share of a
+/// place that it allows, since the origin may be far: small hops of a particle that a flow presses on a wall are
+/// impacts, too.
+fn tolerances(tolerance: f64, body: &Body) -> [Vec<f64>; 2] {
+    let fine = tolerance.min(FINE);
     let length = 1e3 * body.diameter;
-    [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| tolerance * scale).to_vec()
+    let absolute = [length, length, length, 100.0, 100.0, 100.0, 1e4, 10.0].map(|scale| fine * scale);
+    let relative = [[fine; 3].as_slice(), &[tolerance; 5]].concat();
+    [relative, absolute.to_vec()]
 }
 
 /// A step of a path: its times [s] and the states there.
