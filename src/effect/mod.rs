@@ -232,6 +232,12 @@ impl Term {
         Self::of(kind, values.to_vec(), (kind.build)(values).into())
     }
 
+    /// The same with other parameters, in the order of [`EffectInfo::parameters`].
+    #[must_use]
+    pub fn with_values(&self, values: &[f64]) -> Self {
+        Self { values: values.to_vec(), effect: (self.kind.build)(values).into(), ..self.clone() }
+    }
+
     /// A correction without a law; without axes it is a level shift.
     pub fn fitted_curve(curve: FittedCurve) -> Self {
         if curve.axes.is_empty() {

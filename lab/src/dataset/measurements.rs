@@ -256,7 +256,7 @@ mod tests {
                 "9: d = 0: must be positive and finite",
                 "10: e_n is 3.5, above 3; check its unit",
                 "11: e_t is -3.5, below -3",
-                "12: outcome `melted` is unknown; use one of rebound, bounce, stick, stuck",
+                "12: outcome `melted` is unknown; use one of rebound, bounce, stick, stuck, captured",
                 "13: the row has no observation: all columns of observations are blank",
                 "14: e_n_err is negative",
                 "15: v_n = inf: must be finite and not negative",

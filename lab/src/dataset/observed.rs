@@ -29,7 +29,7 @@ pub(super) struct OutcomeWords {
 
 impl OutcomeWords {
     const REBOUND: [&str; 2] = ["rebound", "bounce"];
-    const STICK: [&str; 2] = ["stick", "stuck"];
+    const STICK: [&str; 3] = ["stick", "stuck", "captured"];
 
     /// Reads the words that a column map adds.
     pub(super) fn read(details: &Section<'_>) -> Result<Self, InputError> {

@@ -37,12 +37,11 @@ pub(super) fn candidates(hypothesis: &Hypothesis<'_>, few: bool) -> Vec<Candidat
 fn parts(hypothesis: &Hypothesis<'_>) -> Vec<Candidate> {
     let base = &hypothesis.data.base;
     let effects = EFFECTS.iter().map(|effect| Part::Effect(effect));
-    let parameters = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
     let taken = |name: String| {
         hypothesis.parts.iter().any(|part| part.part.name() == name)
             || base.terms().iter().any(|term| term.kind().id == name)
     };
-    let all = effects.chain(parameters.map(Part::LawParameter));
+    let all = effects.chain(LawParameter::all(base).into_iter().map(Part::LawParameter));
     all.filter(|part| !taken(part.name())).map(Candidate::Part).collect()
 }
 

@@ -43,6 +43,8 @@ pub(super) struct CauseChoice {
     pub structure: [f64; 2],
     /// Errors that groups share in the extended model.
     pub shared: SharedErrors,
+    /// Share of gross errors of the best explanation, where more than the expected one fits better [1].
+    pub gross_errors: Option<f64>,
     /// The parts, curves and scatter of the search.
     state: FoundParts,
 }
@@ -155,7 +157,8 @@ impl CauseChoice {
         let structure =
             [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
         let (data, shared) = (data.clone(), SharedErrors::default());
-        let mut choice = Self { data, explanations, discoveries, structure, shared, state };
+        let gross_errors = grounds[ground].gross_errors;
+        let mut choice = Self { data, explanations, discoveries, structure, shared, gross_errors, state };
         // The scatter about what is named, without the rest of the explanation.
         let mut named = choice.hypothesis(&choice.data);
         named.fit_scatter(&choice.data.search);

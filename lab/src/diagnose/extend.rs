@@ -27,10 +27,7 @@ pub(super) fn extended(base: &str, hypothesis: &Hypothesis<'_>) -> Result<String
     let mut added = ArrayOfTables::new();
     for fitted in &hypothesis.parts {
         match (fitted.part, fitted.values().first()) {
-            (Part::LawParameter(parameter), Some(number)) => {
-                let [table, key] = parameter.key();
-                document[table][key] = value(rounded(*number));
-            }
+            (Part::LawParameter(parameter), Some(number)) => parameter.write(&mut document, *number),
             (Part::LawParameter(_), None) => {}
             (Part::Effect(info), _) => added.push(effect(fitted, info, valid(hypothesis.data))),
         }

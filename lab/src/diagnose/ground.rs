@@ -28,6 +28,8 @@ pub(super) struct Ground {
     pub log_prior: f64,
     /// Whether additions can be looked for beside it.
     pub open: bool,
+    /// The share of gross errors, where it is larger than expected [1].
+    pub gross_errors: Option<f64>,
 }
 
 impl Ground {
@@ -42,6 +44,7 @@ impl Ground {
             freedom: 0.0,
             log_prior: 0.0,
             open: true,
+            gross_errors: None,
         }
     }
 
@@ -188,7 +191,8 @@ fn with_rubbish(data: &DataSplit, share: f64) -> Ground {
     let gross = |offset: &Offset| Offset { gross: share, ..*offset };
     let noise: Vec<Offset> = data.noise.iter().map(gross).collect();
     let changed = DataSplit { noise: noise.into(), ..data.clone() };
-    Ground { key: format!("gross-errors:{share}"), data: changed, freedom: 1.0, ..Ground::plain(data) }
+    let key = format!("gross-errors:{share}");
+    Ground { key, data: changed, freedom: 1.0, gross_errors: Some(share), ..Ground::plain(data) }
 }
 
 /// The rows read otherwise; `None` where a row has no such reading.
@@ -210,5 +214,6 @@ fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
         freedom: other.freedom,
         log_prior: 0.0,
         open: true,
+        gross_errors: None,
     })
 }

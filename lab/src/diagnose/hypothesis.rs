@@ -93,15 +93,15 @@ impl<'a> Hypothesis<'a> {
     /// The base model with the parts. Curves, trends and discrepancy are in [`Hypothesis::offsets`].
     pub fn model(&self) -> Model {
         let mut model = self.data.base.clone();
-        let mut terms = model.terms().to_vec();
+        let mut added = Vec::new();
         for part in &self.parts {
             match (part.part, part.values().as_slice()) {
-                (Part::Effect(effect), values) => terms.push(Term::new(effect, values)),
+                (Part::Effect(effect), values) => added.push(Term::new(effect, values)),
                 (Part::LawParameter(parameter), [value]) => model = parameter.set(&model, *value),
                 (Part::LawParameter(_), _) => {}
             }
         }
-        model.with_terms(terms)
+        model.with_terms([model.terms(), &added].concat())
     }
 
     /// The offsets of all rows, without what their captures have in common.

@@ -1,15 +1,17 @@
 //! What a fit can add to a base model: an effect, or another value of a parameter of its laws.
 
+use toml_edit::{DocumentMut, Item, Value, value};
+
 use super::data_split::DataSplit;
 use super::record::Estimate;
 use super::search::SearchAxis;
-use nearwall::effect::EffectInfo;
+use nearwall::effect::{EFFECTS, EffectInfo};
 use nearwall::model::Model;
 use nearwall::normal::NormalLaw;
 use nearwall::tangential::TangentialLaw;
 
-/// A parameter of the base model's own laws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// A number of the base model: a parameter of its laws, or of an effect that it has.
+#[derive(Debug, Clone, Copy)]
 pub(super) enum LawParameter {
     /// `normal.e_n` of constant restitution.
     NormalRestitution,
@@ -17,32 +19,84 @@ pub(super) enum LawParameter {
     TangentialRestitution,
     /// `tangential.friction`.
     Friction,
+    /// A parameter of an effect, by its place.
+    OfEffect(&'static EffectInfo, usize),
 }
 
 impl LawParameter {
-    pub const ALL: [Self; 3] = [Self::NormalRestitution, Self::TangentialRestitution, Self::Friction];
+    /// The numbers that a model has; not those of an effect that it has twice.
+    pub fn all(model: &Model) -> Vec<Self> {
+        let of_laws = [Self::NormalRestitution, Self::TangentialRestitution, Self::Friction];
+        let of_effects = EFFECTS
+            .into_iter()
+            .flat_map(|effect| (0..effect.parameters.len()).map(move |place| Self::OfEffect(effect, place)));
+        of_laws.into_iter().chain(of_effects).filter(|parameter| parameter.of(model).is_some()).collect()
+    }
 
-    /// Table and key in the model file.
-    pub fn key(self) -> [&'static str; 2] {
+    /// Table and key in the model file; of an effect its kind and key.
+    fn key(self) -> [&'static str; 2] {
         match self {
             Self::NormalRestitution => ["normal", "e_n"],
             Self::TangentialRestitution => ["tangential", "e_t"],
             Self::Friction => ["tangential", "friction"],
+            Self::OfEffect(effect, place) => [effect.id, effect.parameters[place].name],
         }
     }
 
     /// Its value in a model, if the model has it.
     pub fn of(self, model: &Model) -> Option<f64> {
+        if let Self::OfEffect(effect, place) = self {
+            return term(model, effect).and_then(|at| model.terms()[at].values().get(place).copied());
+        }
         self.find(&mut model.normal_law(), &mut model.tangential_law()).copied()
     }
 
     /// The model with another value.
     pub fn set(self, model: &Model, value: f64) -> Model {
+        if let Self::OfEffect(effect, place) = self {
+            let mut terms = model.terms().to_vec();
+            if let Some(term) = term(model, effect).and_then(|at| terms.get_mut(at)) {
+                let mut values = term.values().to_vec();
+                values.iter_mut().skip(place).take(1).for_each(|own| *own = value);
+                *term = term.with_values(&values);
+            }
+            return model.with_terms(terms);
+        }
         let (mut normal, mut tangential) = (model.normal_law(), model.tangential_law());
         if let Some(parameter) = self.find(&mut normal, &mut tangential) {
             *parameter = value;
         }
         model.with_laws(normal, tangential)
+    }
+
+    /// Writes another value into a model file.
+    pub fn write(self, document: &mut DocumentMut, number: f64) {
+        let [table, key] = self.key();
+        if !matches!(self, Self::OfEffect(..)) {
+            document[table][key] = value(rounded(number));
+            return;
+        }
+        let is_own = |kind: Option<&str>| kind == Some(table);
+        match document.get_mut("effects") {
+            Some(Item::ArrayOfTables(effects)) => {
+                let own = effects.iter_mut().find(|one| is_own(one.get("kind").and_then(Item::as_str)));
+                own.into_iter().for_each(|one| one[key] = value(rounded(number)));
+            }
+            Some(Item::Value(Value::Array(effects))) => {
+                let mut tables = effects.iter_mut().filter_map(Value::as_inline_table_mut);
+                let own = tables.find(|one| is_own(one.get("kind").and_then(Value::as_str)));
+                own.into_iter().for_each(|one| drop(one.insert(key, rounded(number).into())));
+            }
+            _ => {}
+        }
+    }
+
+    /// Its search range; `range` gives the least and largest value of an input in the data.
+    fn axis(self, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<SearchAxis> {
+        match self {
+            Self::OfEffect(effect, place) => SearchAxis::of(&effect.parameters[place], range),
+            _ => Some(SearchAxis::linear(0.02, 1.1)),
+        }
     }
 
     fn find<'a>(self, normal: &'a mut NormalLaw, tangential: &'a mut TangentialLaw) -> Option<&'a mut f64> {
@@ -63,6 +117,12 @@ impl LawParameter {
     }
 }
 
+/// The place of the only term of an effect among those of a model.
+fn term(model: &Model, effect: &EffectInfo) -> Option<usize> {
+    let mut own = (0..model.terms().len()).filter(|at| model.terms()[*at].kind().id == effect.id);
+    own.next().filter(|_| own.next().is_none())
+}
+
 /// An addition to the base model that has parameters.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Part {
@@ -81,13 +141,18 @@ impl Part {
 
     /// Whether its outcome is drawn at random.
     pub fn is_stochastic(&self) -> bool {
-        matches!(self, Self::Effect(effect) if effect.stream.is_some())
+        let effect = match self {
+            Self::Effect(effect) | Self::LawParameter(LawParameter::OfEffect(effect, _)) => effect,
+            Self::LawParameter(_) => return false,
+        };
+        effect.stream.is_some()
     }
 
     /// The inputs that it depends on.
     pub fn inputs(&self) -> &'static [&'static str] {
         match self {
             Self::Effect(effect) => effect.inputs,
+            Self::LawParameter(LawParameter::OfEffect(effect, _)) => effect.inputs,
             Self::LawParameter(_) => &[],
         }
     }
@@ -96,7 +161,10 @@ impl Part {
     /// last; `range` gives the least and largest value of an input in the data. `None` if the data
     /// do not vary in what it depends on.
     pub fn axes(&self, range: impl Fn(&str) -> Option<[f64; 2]>, refined: bool) -> Option<Vec<SearchAxis>> {
-        let Self::Effect(effect) = self else { return Some(vec![SearchAxis::linear(0.02, 1.1)]) };
+        let effect = match self {
+            Self::Effect(effect) => effect,
+            Self::LawParameter(parameter) => return Some(vec![parameter.axis(range)?]),
+        };
         // Beside another input, speed and diameter need not vary: the plain laws depend on them too.
         let (plain, others): (Vec<&str>, Vec<&str>) =
             effect.inputs.iter().partition(|input| ["v_n", "d"].contains(*input));

@@ -69,6 +69,8 @@ pub struct Diagnosis {
     /// Share [1] of the captures that the model predicts which happen, where some never do.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub capture_ceiling: Option<f64>,
+    /// Share of the readings that lie far from any model, about which nothing is known [1]; `None` where it is small.
+    pub gross_errors: Option<f64>,
     /// Captures that neither the base model nor a cause nor a column explains.
     pub unexplained_capture: Option<Unexplained>,
     /// The gain on held-out rows in the observable of the first finding.

@@ -5,6 +5,8 @@ use super::record::{
     Calibration, Diagnosis, ExplanationFound, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained,
 };
 
+/// Smaller chances are not told apart.
+const SMALLEST_CHANCE: f64 = 1e-12;
 /// With fewer rows the verdict warns that effects may go undetected.
 const WARNED_ROWS: usize = 60;
 
@@ -37,7 +39,7 @@ pub(super) fn is_refuted(fit: &Fit) -> bool {
 /// The verdict on impacts: the result in a few sentences.
 pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     let rows = diagnosis.rows.used;
-    let mut text = fit_sentence(&diagnosis.fit);
+    let mut text = fit_sentence(diagnosis, "");
     if let Some(rival) = diagnosis.rivals.first().filter(|rival| is_best(rival, diagnosis)) {
         text += &format!("{} No physics is named before this is checked.", rival.explanation);
         return text;
@@ -46,7 +48,10 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     if let Some(Rival { explanation, probability, .. }) = diagnosis.rivals.first() {
         text += &format!(" Check this, too ({}): {explanation}", probability_words(*probability));
     }
-    text += &diagnosis.gain.as_ref().map_or(String::new(), gain_sentence);
+    if let Some(gain) = &diagnosis.gain {
+        let seen = format!("{} {} rows", gain.held_out_rows, gain.measured);
+        text += &if diagnosis.refuted.is_empty() { gain_sentence(gain) } else { worse_sentence(gain, &seen) };
+    }
     if let Some(Unexplained { measured, expected }) = &diagnosis.unexplained_capture {
         text += &format!(
             " {:.1} % of the impacts were captured, but the model predicts {:.1} %; no column explains the difference.",
@@ -59,6 +64,13 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             " Of the captures that the model predicts {:.1} % happen, whatever the impact: the others are missed, or \
              bounce for another reason.",
             100.0 * ceiling
+        );
+    }
+    if let Some(share) = diagnosis.gross_errors {
+        text += &format!(
+            " Some {:.0} % of the readings lie far from any smooth model: gross errors, or a cause that acts on some \
+             impacts and that no column tells. Look at the largest residuals.",
+            100.0 * share
         );
     }
     if let Some(groups) = &diagnosis.groups {
@@ -100,17 +112,50 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
     let values = diagnosis.calibration.iter().map(value).collect::<Vec<_>>().join(", ");
     let lacks = match (causes.as_slice(), values.is_empty()) {
         ([], true) => return nothing(),
-        ([], false) => return format!("The data support {values}; no further effect is significant."),
+        ([], false) => {
+            let further =
+                further(diagnosis, words).unwrap_or("; no further effect is significant.".to_owned());
+            return format!("The data support {values}{further}");
+        }
         ([one], _) => format!("The {subject} lacks {one}."),
         (several, _) => format!("The {subject} lacks {} effects: {}.", several.len(), several.join(", ")),
     };
     let formulas = formulas(&diagnosis.findings);
     let formula = if formulas.is_empty() { formulas } else { format!(" As a formula: {formulas}.") };
-    if values.is_empty() {
-        lacks + &formula
-    } else {
-        format!("{lacks}{formula} The data also support {values}.")
+    let numbers = if values.is_empty() { values } else { format!(" The data also support {values}.") };
+    let further = further(diagnosis, words).map_or(String::new(), |more| more.replacen("; and a", " A", 1));
+    format!("{lacks}{formula}{numbers}{further}")
+}
+
+/// That a cause is missing beside the named ones, where it is more likely than not and cannot be told.
+fn further(diagnosis: &Diagnosis, words: &Words) -> Option<String> {
+    let findings = diagnosis.findings.iter().map(|one| one.cause.as_str());
+    let named: Vec<&str> =
+        findings.chain(diagnosis.calibration.iter().map(|number| number.key.as_str())).collect();
+    let is_named = |cause: &String| named.contains(&cause.as_str());
+    let has_all = |one: &&ExplanationFound| named.iter().all(|name| one.causes.iter().any(|own| own == name));
+    let with: Vec<&ExplanationFound> = diagnosis.explanations.iter().filter(has_all).collect();
+    let sum = |of: &dyn Fn(&ExplanationFound) -> bool| -> f64 {
+        with.iter().filter(|one| of(one)).map(|one| one.probability).sum()
+    };
+    let share = sum(&|one| one.causes.len() > named.len()) / sum(&|_| true);
+    let mut open: Vec<(f64, &String)> = Vec::new();
+    for cause in with.iter().flat_map(|one| &one.causes).filter(|cause| !is_named(cause)) {
+        if open.iter().all(|(_, known)| *known != cause) {
+            open.push((sum(&|one| one.causes.contains(cause)), cause));
+        }
     }
+    open.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let causes: Vec<String> =
+        open.iter().map(|(p, cause)| format!("{cause} ({})", probability_words(*p))).collect();
+    (share > 0.5).then(|| {
+        format!(
+            "; and a further cause is there ({}), but these {} cannot tell which of {}.",
+            probability_words(share),
+            words.data,
+            causes.join(", ")
+        )
+    })
 }
 
 /// The equations of all closed forms.
@@ -128,28 +173,34 @@ pub(super) fn probability_words(probability: f64) -> String {
     }
 }
 
-/// What the test of fit says of the base model, where there are stated errors or replicates.
-pub(super) fn fit_sentence(fit: &Fit) -> String {
-    let FitTest { against, chi_square, degrees_of_freedom, p_value } = &fit.base;
+/// What the test of fit says of the base model, where there are stated errors or replicates; `beside` says which
+/// errors count beside those of the readings.
+pub(super) fn fit_sentence(diagnosis: &Diagnosis, beside: &str) -> String {
+    let Fit { base: FitTest { against, chi_square, degrees_of_freedom, p_value }, largest, .. } =
+        &diagnosis.fit;
     let (Some(chi_square), Some(freedom), Some(p)) = (chi_square, degrees_of_freedom, p_value) else {
         return String::new();
     };
     let against = if *against == "replicates" { "scatter of the replicates" } else { "stated errors" };
     if *p >= REFUTED {
-        return format!(
-            "The {against} agree with the base model (chi-square {chi_square:.1} for {freedom}). "
-        );
+        let Diagnosis { findings, calibration, undecided, .. } = diagnosis;
+        let agree = if findings.is_empty() && calibration.is_empty() && undecided.is_empty() {
+            "agree with the base model"
+        } else {
+            "alone do not refute the base model, but the misfit has the shape of a cause"
+        };
+        return format!("The {against}{beside} {agree} (chi-square {chi_square:.1} for {freedom}). ");
     }
     let misfit = |one: &LargeMisfit| format!("line {} by {:+.1}", one.line, one.standard_errors);
-    let misfits: Vec<String> = fit.largest.iter().take(3).map(misfit).collect();
+    let misfits: Vec<String> = largest.iter().take(3).map(misfit).collect();
     let misfits = match misfits.as_slice() {
         [] => String::new(),
-        some => format!("; the largest misfits in standard errors: {}", some.join(", ")),
+        some => format!("; the largest misfits in standard errors of the readings: {}", some.join(", ")),
     };
     format!(
-        "The {against} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by chance \
-            once in {:.0e}{misfits}. ",
-        1.0 / p.max(1e-300)
+        "The {against}{beside} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by \
+            chance less than once in {:.0e}{misfits}. ",
+        1.0 / p.max(SMALLEST_CHANCE)
     )
 }
 
@@ -159,7 +210,7 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
     if !diagnosis.refuted.is_empty() {
         let causes = diagnosis.refuted.join(", ");
         return format!(
-            "With {causes} the model predicts {unseen} that it has not seen worse than without: nothing is named."
+            "With {causes} the model predicts {unseen} that it has not seen no better than without: nothing is named."
         );
     }
     let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
@@ -199,6 +250,15 @@ fn cannot_tell(diagnosis: &Diagnosis, words: &Words, base: f64) -> String {
     format!(
         "The {subject} probably lacks something ({}), but these {data} cannot tell which of {causes}.",
         probability_words(1.0 - base)
+    )
+}
+
+/// Why what was found is not named though an error may fall; `seen` is what was predicted, as "40 rows".
+pub(super) fn worse_sentence(gain: &Gain, seen: &str) -> String {
+    let Gain { observable, rmse_before, rmse_after, log_score_before, log_score_after, .. } = gain;
+    format!(
+        " On {seen} the mean log score goes from {log_score_before:.3} to {log_score_after:.3}, and the root mean \
+         square error in {observable} from {rmse_before:.3} to {rmse_after:.3}."
     )
 }
 

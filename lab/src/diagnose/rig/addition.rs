@@ -1,7 +1,7 @@
 //! What a rig's data can add to the wall law: an effect, another value of a law's own number, a
 //! level, or a curve or closed form over an input or group.
 
-use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value, value};
+use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value};
 
 use super::super::closed_form::ClosedForm;
 use super::super::extend::{curve_effect, effect, form_effect, list, with_effects};
@@ -266,8 +266,7 @@ impl RigAddition {
         match &self.kind {
             Kind::Part(Part::LawParameter(parameter)) => {
                 if let Some(number) = self.values().first() {
-                    let [table, key] = parameter.key();
-                    document[table][key] = value(rounded(*number));
+                    parameter.write(document, *number);
                 }
             }
             Kind::Part(Part::Effect(info)) => {

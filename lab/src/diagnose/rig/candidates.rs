@@ -27,8 +27,7 @@ pub(super) fn candidates(forward: &dyn Forward, inputs: &RigInputs, data: &Data)
     let base = forward.base(0);
     let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
     let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
-    let numbers = LawParameter::ALL.into_iter().filter(|parameter| parameter.of(base).is_some());
-    let parts = effects.chain(numbers.map(Part::LawParameter));
+    let parts = effects.chain(LawParameter::all(base).into_iter().map(Part::LawParameter));
     // A transition may begin within the range of the data and have its middle beyond.
     let wider = |input: &str| {
         let [low, high] = inputs.range(input)?;

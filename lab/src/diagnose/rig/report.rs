@@ -10,10 +10,10 @@ use super::super::form_finding;
 use super::super::goodness_of_fit::MOST_LISTED;
 use super::super::part::{Part, rounded};
 use super::super::record::{
-    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, LargeMisfit,
+    Calibration, CauseCurve, CauseForm, Diagnosis, Finding, Fit, FitTest, FormPoint, Gain, LargeMisfit,
     NotExamined, Options, Rows,
 };
-use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words};
+use super::super::sentences::{Words, fit_sentence, found, nothing_found, probability_words, worse_sentence};
 use super::super::verdict::not_examined;
 use super::addition::{Kind, RigAddition};
 use super::blame::{self, Blame, Parties};
@@ -131,7 +131,8 @@ impl RigFindings<'_> {
         let mut diagnosis = self.diagnosis(file, options, &extended)?;
         let counts = [study.data.experiments, study.data.readings.len()];
         let (parties, blame) = (Parties::of(choice), blame::blame(study, choice)?);
-        diagnosis.verdict = verdict(&diagnosis, counts, (&parties, &blame));
+        let beside = if study.forward.case_numbers().is_empty() { "" } else { " of readings and case" };
+        diagnosis.verdict = verdict(&diagnosis, counts, beside, (&parties, &blame));
         if study.forward.most_causes() == 1 && !diagnosis.findings.is_empty() {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and \
                 diagnose their new record for more.";
@@ -505,11 +506,12 @@ fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> Str
 fn verdict(
     diagnosis: &Diagnosis,
     [experiments, readings]: [usize; 2],
+    beside: &str,
     (parties, blame): (&Parties, &[Blame]),
 ) -> String {
     let seen = format!("{experiments} experiments with {readings} readings");
     let nothing = || nothing_found(diagnosis, &NOTHING, &seen);
-    let mut text = fit_sentence(&diagnosis.fit) + &law_and_case(diagnosis, parties.case, nothing);
+    let mut text = fit_sentence(diagnosis, beside) + &law_and_case(diagnosis, parties.case, nothing);
     let named: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
     text += &blame::sentences(parties, blame, &named);
     let left = &diagnosis.fit.extended;
@@ -525,14 +527,17 @@ fn verdict(
         );
     }
     if let Some(gain) = &diagnosis.gain {
-        text += &format!(
-            " On held-out experiments ({}, cross-validated) the root mean square error in {} {} from {:.3} to {:.3}.",
-            gain.held_out_rows,
-            gain.observable,
-            if gain.ci95[1] < 1.0 { "falls" } else { "goes, not significantly," },
-            gain.rmse_before,
-            gain.rmse_after
-        );
+        let held_out = format!("held-out experiments ({}, cross-validated)", gain.held_out_rows);
+        text += &if diagnosis.refuted.is_empty() {
+            let falls = if gain.ci95[1] < 1.0 { "falls" } else { "goes, not significantly," };
+            let Gain { observable, rmse_before, rmse_after, .. } = gain;
+            format!(
+                " On {held_out} the root mean square error in {observable} {falls} from {rmse_before:.3} to \
+                 {rmse_after:.3}."
+            )
+        } else {
+            worse_sentence(gain, &held_out)
+        };
     }
     if experiments < FEW_EXPERIMENTS {
         text += &format!(" With only {experiments} experiments, an effect of usual size may go undetected.");
