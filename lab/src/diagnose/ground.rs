@@ -71,6 +71,8 @@ const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
 const SHARES: [f64; 8] = [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3];
 /// Shares of gross errors beside the expected one [1].
 const RUBBISH: [f64; 2] = [0.1, 0.25];
+/// With fewer readings, and beside stated errors, a row that looks like a gross error is evidence.
+const LEAST_WITH_RUBBISH: f64 = 12.0;
 
 /// All grounds, the rows as they are first; `text` is the file of the base model. Of the other readings those stay
 /// that have more evidence than the rows as they are.
@@ -82,9 +84,10 @@ pub(super) fn grounds(
 ) -> Vec<Ground> {
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
-    if data.noise.iter().any(|offset| offset.gross > 0.0) {
-        all.extend(RUBBISH.map(|share| with_rubbish(data, share)));
-    }
+    let expected = data.noise.iter().any(|offset| offset.gross > 0.0);
+    let possible = expected || !evidence.stated && evidence.readings >= LEAST_WITH_RUBBISH;
+    let shares = RUBBISH.into_iter().take(if expected { RUBBISH.len() } else { usize::from(possible) });
+    all.extend(shares.map(|share| with_rubbish(data, share)));
     // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
     all.extend(unstated_errors(data, &searched, evidence));
