@@ -81,7 +81,8 @@ mod tests {
             "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\n\
              model = \"constant\"\ne_n = 0.5\n",
         );
-        let walls = WallChoice::new(&model.unwrap(), None).unwrap();
+        let model = model.unwrap();
+        let walls = WallChoice::new(&model, None).unwrap();
         let data = Measurements::read("t.csv", text.as_bytes(), None, &walls).unwrap();
         without_copies(&data).rows.iter().map(|row| row.line).collect()
     }

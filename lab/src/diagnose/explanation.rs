@@ -111,8 +111,27 @@ pub(super) fn explore<K: Explained>(
         let extended = kind.extended(&next);
         extended.into_iter().chain(reduced).for_each(|one| add(&mut visited, one, evidence));
     }
+    for part in parts_of_best(&visited, &expanded, evidence) {
+        if kind.effort(&part) == 1 {
+            kind.extended(&part).into_iter().for_each(|one| add(&mut visited, one, evidence));
+        }
+    }
     visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
     visited
+}
+
+/// The best explanation without each of its additions, as far as known and not expanded: what gains little alone, since
+/// another addition is missing, may take the place of one that gains more alone.
+fn parts_of_best<F: Clone>(
+    visited: &[Explanation<F>],
+    expanded: &[Vec<String>],
+    evidence: Evidence,
+) -> Vec<Explanation<F>> {
+    let best = visited.iter().max_by(|a, b| evidence.of(a).total_cmp(&evidence.of(b)));
+    let keys = best.map_or(&[][..], |best| &best.keys);
+    let without = |place: usize| [&keys[..place], &keys[place + 1..]].concat();
+    let parts = (0..keys.len()).map(without).filter(|part| !part.is_empty() && !expanded.contains(part));
+    parts.filter_map(|part| visited.iter().find(|one| one.keys == part).cloned()).collect()
 }
 
 /// The explanation that is expanded next.

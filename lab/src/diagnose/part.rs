@@ -249,3 +249,29 @@ impl FittedPart {
 pub(super) fn rounded(number: f64) -> f64 {
     format!("{number:.5e}").parse().unwrap_or(number)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LAWS: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
+        [normal]\nmodel = \"constant\"\ne_n = 0.5\n";
+
+    /// A number of an effect that the base has is set in the model and in both ways to write the file.
+    #[test]
+    fn numbers_of_effects_are_set_and_written() {
+        let tables = "[[effects]]\nkind = \"melting-transition\"\ntemperature = 330\nwidth = 8\n";
+        let inline = "effects = [{ kind = \"melting-transition\", temperature = 330, width = 8 }]\n";
+        for text in [format!("{LAWS}{tables}"), format!("{inline}{LAWS}")] {
+            let model = Model::from_toml("m.toml", &text).unwrap();
+            let numbers = LawParameter::all(&model);
+            let temperature = *numbers.iter().find(|one| one.key()[1] == "temperature").unwrap();
+            assert_eq!(temperature.of(&model), Some(330.0));
+            assert_eq!(temperature.of(&temperature.set(&model, 338.0)), Some(338.0));
+            let mut document: DocumentMut = text.parse().unwrap();
+            temperature.write(&mut document, 338.0);
+            let read = Model::from_toml("m.toml", &document.to_string()).unwrap();
+            assert_eq!(temperature.of(&read), Some(338.0));
+        }
+    }
+}
