@@ -125,9 +125,13 @@ impl ReasonCount {
 
 /// The properties and laws of reasons, each once.
 fn properties(reasons: &[(&String, &ReasonCount)]) -> String {
-    let name = |(stated, _): &(&String, _)| stated.split(" is ").next().unwrap_or_default().to_owned();
-    let names: BTreeSet<String> = reasons.iter().map(name).collect();
+    let names: BTreeSet<String> = reasons.iter().map(|(stated, _)| named(stated)).collect();
     names.into_iter().collect::<Vec<_>>().join(", ")
+}
+
+/// What a reason is about.
+fn named(stated: &str) -> String {
+    stated.split(" is ").next().unwrap_or_default().to_owned()
 }
 
 impl RangeCounts {
@@ -201,6 +205,8 @@ impl RangeCounts {
             format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
         };
         let (idle, moving): (Vec<_>, Vec<_>) = sorted.into_iter().partition(|(_, count)| count.is_idle());
+        let others: Vec<String> = moving.iter().map(|(stated, _)| named(stated)).collect();
+        let idle: Vec<_> = idle.into_iter().filter(|(stated, _)| !others.contains(&named(stated))).collect();
         let idle = match idle.as_slice() {
             [] | [_] => idle.iter().map(line).collect(),
             several => vec![format!("held without moving the outcome: {}", properties(several))],

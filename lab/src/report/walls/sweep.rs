@@ -60,6 +60,13 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     if let Some(trouble) = runs.iter().find_map(|run| run.totals.first_trouble.as_ref()) {
         page.text(format!("Some particles could not be used. The first: {trouble}."));
     }
+    let worst = runs.iter().max_by_key(|run| run.totals.warnings().len());
+    if let Some((run, lines)) =
+        worst.map(|run| (run, run.totals.warnings())).filter(|(_, lines)| !lines.is_empty())
+    {
+        page.heading(format!("Outside of stated ranges at {}", axis.at(run)));
+        lines.into_iter().for_each(|line| page.note(format!("{line}.")));
+    }
     let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
     if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {
         page.heading(format!("Where particles are captured at {}", axis.at(run)));
@@ -87,7 +94,7 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
     let chart = with_band(chart, axis, runs);
     let chart = with_references(chart, axis, sweep, "capture", 100.0)
         .points_with_errors("first hits", &first, &errors)
-        .line("particles, in the end", &every);
+        .line("of the mass, in the end", &every);
     chart.y_range(0.0, 100.0).figure(
         "sweep-capture",
         "Captured share of first hits, with its 95 % interval, and captured share of all mass at the end.",

@@ -85,6 +85,11 @@ fn single(comparison: &RunComparison<'_>, run: &RunResults) -> String {
     let captured = percent(share(run.captured_mass(comparison.time), injected));
     let mut parts = vec![format!("{captured} of the injected mass is captured")];
     parts.extend(part("escaped").or_else(|| part("left through")).map(|share| format!("{share} leaves")));
+    parts.extend(
+        part("reacted")
+            .filter(|share| *share != percent(0.0))
+            .map(|share| format!("{share} has reacted to gas")),
+    );
     parts.extend(part("airborne").map(|share| format!("{share} is airborne at the end")));
     parts.join(", ") + "."
 }
@@ -107,7 +112,7 @@ fn reason(comparison: &RunComparison<'_>, run: &RunResults) -> Option<String> {
 
 fn regime_words(regime: Regime) -> String {
     let what = match regime {
-        Regime::NspNsw => "non-sticky particles on a non-sticky wall",
+        Regime::NspNsw => "non-sticky particles on a non-sticky wall, by adhesion alone",
         Regime::NspSw => "non-sticky particles on a sticky wall",
         Regime::SpNsw => "sticky particles on a non-sticky wall",
         Regime::SpSw => "sticky particles on a sticky wall",

@@ -65,6 +65,7 @@ fn run_once<E: From<SimulationError>>(
         totals.add(trajectory);
         totals.count_ranges(case, &ranges, trajectory);
         totals.count_too_seldom(case, trajectory);
+        totals.count_without_gradient(case, trajectory);
         observer(case, value, number, trajectory)
     })?;
     Ok(Run { value, totals, deposits, bands: Vec::new() })

@@ -153,6 +153,8 @@ pub struct RunTotals {
     pub ranges: RangeCounts,
     /// Particles that turbulence brings to walls too seldom.
     pub too_seldom: u64,
+    /// Number of particles that ended where the gas has no gradient of temperature, though thermophoresis is on.
+    pub without_gradient: u64,
 }
 
 impl RunTotals {
@@ -219,6 +221,12 @@ impl RunTotals {
         self.too_seldom += u64::from(turbulence.is_slow(relaxation, &gas));
     }
 
+    /// Counts a particle that thermophoresis cannot push to a wall of another temperature.
+    pub(super) fn count_without_gradient(&mut self, case: &Case, trajectory: &Trajectory) {
+        let is_flat = case.gas.temperature_gradient(&trajectory.position).norm() == 0.0;
+        self.without_gradient += u64::from(case.gas.thermophoresis && is_flat);
+    }
+
     /// What the results are not good for, a line for each reason.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = self.ranges.lines("hits");
@@ -228,6 +236,14 @@ impl RunTotals {
                  half as many to walls as measured, down to hardly any at 1",
                 self.too_seldom, self.ends.injected.count
             ));
+        }
+        let injected = self.ends.injected.count;
+        if injected > 0 && self.without_gradient == injected {
+            lines.push(
+                "thermophoresis acts along the temperature gradient of the gas field, which has none here: colder \
+                 walls draw nothing; give `gas.temperature` as a profile across the gas"
+                    .to_owned(),
+            );
         }
         lines
     }
