@@ -215,6 +215,22 @@ mod tests {
     }
 
     #[test]
+    fn slips_of_a_sheet_are_named() {
+        let refused = |oxides: &str| {
+            read(&format!("[materials.a]\nlike = \"fly-ash\"\ncomposition = {{ {oxides} }}\n")).unwrap_err()
+        };
+        let twice = refused("CaO = 90, SiO2 = 59");
+        assert!(twice.contains("materials.a.composition: the shares add up to 149.0 wt%"), "{twice}");
+        let salt = refused("CaO = 30, SiO2 = 59, Cl = 5");
+        assert!(salt.contains("materials.a.composition.Cl: no oxide; leave chlorine out"), "{salt}");
+        let unknown = refused("SiO = 30");
+        assert!(
+            unknown.contains("materials.a.composition.SiO: unknown oxide `SiO`; known: SiO2"),
+            "{unknown}"
+        );
+    }
+
+    #[test]
     fn a_wrong_base_is_named_with_the_remedy() {
         let refused = |text: &str| read(text).unwrap_err();
         assert!(refused("[materials.a]\nlike = \"coal-slak\"\n").starts_with(

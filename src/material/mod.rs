@@ -9,7 +9,7 @@ mod table;
 use crate::impact::ImpactError;
 use crate::input::{InputError, Limits, Section};
 use crate::law::QuantityKind;
-use crate::slag::{Composition, FusionTemperatures, Molten, surface_tension};
+use crate::slag::{Composition, CompositionError, FusionTemperatures, Molten, surface_tension};
 
 pub use library::{BUILT_IN_TEXT, Library, built_in_toml};
 pub use property::{OutOfRange, Property};
@@ -472,6 +472,9 @@ fn how_to_give(field: &PropertyField, composition: Option<&Composition>) -> Stri
     }
 }
 
+/// An analysis that adds up to more has a slip [wt%]; one to less leaves something out.
+const LARGEST_SUM: f64 = 110.0;
+
 fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     const NOTES: [&str; 2] = ["unit", "source"];
     section.choice("unit", &["wt%"])?;
@@ -480,8 +483,18 @@ fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     for key in section.keys().iter().filter(|key| !NOTES.contains(&key.as_str())) {
         oxides.push((key.clone(), section.required_number(key)?));
     }
+    let sum: f64 = oxides.iter().map(|(_, share)| share).sum();
+    if sum > LARGEST_SUM {
+        return Err(section.fault("", format!("the shares add up to {sum:.1} wt%; correct the sheet")));
+    }
     let named = oxides.iter().map(|(name, share)| (name.as_str(), *share));
-    Composition::new(named).map_err(|error| section.fault("", error))
+    Composition::new(named).map_err(|error| match &error {
+        CompositionError::UnknownOxide { name } if name.contains("Cl") => {
+            section.fault(name, "no oxide; leave chlorine out, and give what melts early as `melt_fraction`")
+        }
+        CompositionError::UnknownOxide { name } => section.fault(name, error.to_string()),
+        _ => section.fault("", error),
+    })
 }
 
 #[cfg(test)]

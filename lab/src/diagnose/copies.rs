@@ -79,7 +79,7 @@ mod tests {
         let model = Model::from_toml(
             "m.toml",
             "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n[normal]\n\
-             model = \"constant\"\ne_n = 0.5\n",
+             model = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.8\n",
         );
         let model = model.unwrap();
         let walls = WallChoice::new(&model, None).unwrap();

@@ -255,7 +255,7 @@ mod tests {
     use super::*;
 
     const LAWS: &str = "[particle]\nmaterial = \"montan-wax\"\n[walls.default]\nmaterial = \"pyrex\"\n\
-        [normal]\nmodel = \"constant\"\ne_n = 0.5\n";
+        [normal]\nmodel = \"constant\"\ne_n = 0.5\n[tangential]\nmodel = \"constant\"\ne_t = 0.8\n";
 
     /// A number of an effect that the base has is set in the model and in both ways to write the file.
     #[test]

@@ -34,6 +34,12 @@ pub(super) fn add_commands(page: &mut Page, found: &RigDiagnosis, from: &RigPage
              nearwall check {file}\nnearwall simulate {case} -o extended"
         ));
     }
+    if found.extended_case.is_some() {
+        page.text(
+            "extended_case.toml is next to this page, too: the case with its wrong numbers corrected. A number that \
+             the data file sets for each experiment is wrong likewise in each: correct that of a new one as well.",
+        );
+    }
     page.text(format!(
         "In OpenFOAM: copy {file} to constant/nearWall.toml of the case and add these lines (every shell that runs a \
             solver needs openfoam/environment):"
