@@ -1,12 +1,13 @@
 //! Lines of a file that repeat an earlier one, as where a table was pasted twice: they count once.
 //!
 //! Replicates can coincide by rounding. So lines are copies only where every restitution at their inputs occurs at
-//! least twice, and only in a file in which this holds for at least half of the inputs with several restitutions. A
-//! capture has no restitution to be told by: of captures at equal inputs as many stay as the table was pasted less
-//! often.
+//! least twice, and only in a file in which this holds for three inputs, and for at least half of those with several
+//! restitutions. A capture has no restitution to be told by: of captures at equal inputs as many stay as the table was
+//! pasted less often.
 
 use std::collections::BTreeMap;
 
+use super::constants::LEAST_ROWS;
 use crate::dataset::{Measurement, Measurements};
 
 /// The bits of some numbers.
@@ -31,9 +32,9 @@ fn first_lines(data: &Measurements) -> BTreeMap<u64, u64> {
     let several: Vec<Vec<usize>> =
         at_inputs.values().map(|at| restitutions(&at)).filter(|one| one.iter().sum::<usize>() > 1).collect();
     let pasted = |counts: &Vec<usize>| counts.iter().all(|count| *count > 1);
-    let repeated = several.iter().filter(|counts| pasted(counts));
-    let Some(times) = repeated.clone().flatten().min() else { return BTreeMap::new() };
-    if 2 * repeated.count() < several.len() {
+    let repeated: Vec<&Vec<usize>> = several.iter().filter(|counts| pasted(counts)).collect();
+    let Some(times) = repeated.iter().copied().flatten().min() else { return BTreeMap::new() };
+    if repeated.len() < LEAST_ROWS || 2 * repeated.len() < several.len() {
         return BTreeMap::new();
     }
     let at_copies = at_inputs.values().filter(|at| pasted(&restitutions(at)));
