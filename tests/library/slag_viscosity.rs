@@ -212,8 +212,10 @@ fn outside_the_range_of_a_law_an_impact_is_flagged() {
     for law in VISCOSITY_LAWS {
         for _ in 0..200 {
             let ceilings = [60.0, 2.0, 35.0, 10.0, 5.0, 0.2, 4.0, 5.0, 5.0, 25.0, 0.5];
+            let drawn: Vec<f64> = ceilings.into_iter().map(|high| 0.1 + below(high)).collect();
+            let sum: f64 = drawn.iter().sum();
             let shares: Vec<(&str, f64)> =
-                OXIDES.into_iter().zip(ceilings).map(|(oxide, high)| (oxide, 0.1 + below(high))).collect();
+                OXIDES.into_iter().zip(drawn).map(|(oxide, share)| (oxide, 100.0 * share / sum)).collect();
             let Ok(slag) = SlagViscosity::new(law, &Composition::new(shares.clone()).unwrap()) else {
                 continue;
             };
