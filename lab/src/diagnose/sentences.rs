@@ -197,10 +197,14 @@ pub(super) fn fit_sentence(diagnosis: &Diagnosis, beside: &str) -> String {
         [] => String::new(),
         some => format!("; the largest misfits in standard errors of the readings: {}", some.join(", ")),
     };
+    let chance = match 1.0 / p.max(SMALLEST_CHANCE) {
+        times if *p < SMALLEST_CHANCE => format!("less than once in {times:.0e}"),
+        times if times < 1e4 => format!("once in {times:.0}"),
+        times => format!("once in {times:.0e}"),
+    };
     format!(
         "The {against}{beside} speak against the base model: chi-square {chi_square:.1} for {freedom} readings, by \
-            chance less than once in {:.0e}{misfits}. ",
-        1.0 / p.max(SMALLEST_CHANCE)
+            chance {chance}{misfits}. "
     )
 }
 

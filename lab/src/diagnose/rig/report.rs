@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
+use toml_edit::DocumentMut;
 
 use super::super::closed_form::ClosedForm;
 use super::super::constants::REFUTED;
@@ -200,6 +201,9 @@ impl RigFindings<'_> {
         let mut all = not_examined(study.forward.base(0), range, "over the impacts");
         if study.forward.case_numbers().is_empty() {
             all.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
+        }
+        if self.text.parse::<DocumentMut>().is_ok_and(|model| model.contains_key(CAPTURE)) {
+            all.push(NotExamined { cause: CAPTURE, reason: NO_CRITERION.to_owned() });
         }
         all
     }
@@ -454,6 +458,11 @@ fn explain(finding: &Finding) -> String {
     )
 }
 
+/// The table of a model file with the criterion of capture, and why its numbers were no candidates.
+const CAPTURE: &str = "capture";
+const NO_CRITERION: &str =
+    "the numbers of its criterion are taken as they are: captures may be wrong by them, too";
+
 /// Why no number of the case was a candidate.
 const NO_CASE: &str =
     "recorded flights, and walls with a deposit, are not followed anew with another number of the case";
@@ -496,7 +505,9 @@ fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> Str
         several => format!("{} are wrong by more than their errors.", several.join(" and ")),
     };
     if law.is_empty() && diagnosis.calibration.is_empty() {
-        return format!("The case is at fault, not the wall ({}): {wrong}", probability_words(alone));
+        let criterion = diagnosis.not_examined.iter().any(|one| one.cause == CAPTURE);
+        let unless = if criterion { "; numbers of [capture] are not examined" } else { "" };
+        return format!("The case is at fault, not the wall ({}{unless}): {wrong}", probability_words(alone));
     }
     let law = Diagnosis { findings: law, ..diagnosis.clone() };
     format!("The case is at fault: {wrong} {}", found(&law, &RIG, String::new))
