@@ -205,7 +205,8 @@ pub(super) fn ridge(
 }
 
 /// Fits curves over the columns `own`, and interactions of each of them with another of `own` or `others`, which have
-/// no curve of their own. Returns the fitted values at the rows `targets`, with mean zero over the points, and the effective number of parameters.
+/// no curve of their own. Returns the fitted values at the rows `targets`, with mean zero over the points, and the
+/// effective number of parameters.
 pub(super) fn surface(
     own: &[&ColumnValues],
     others: &[&ColumnValues],

@@ -8,12 +8,11 @@
 //! `c = v_0 - d_0 + s/b`.
 //!
 //! `d_1` is taken where a constant drive would lead (Heun). A step is halved while response or drive change by more
-//! than a twentieth, in turbulence a tenth, and displace the particle by more than a hundredth of its diameter. The walk
-//! stays what it is as long as it may ([`nearwall::transport::langevin`]), and goes on by half of that time before and
-//! half after (Strang): all of it after would thin out tracers at a wall by a fifth, as steps become shorter towards it.
-//! Brownian motion adds its exact
-//! displacement; whether it touched a wall within a step is drawn from the Brownian bridge. All draws depend on the
-//! seed, the number of the particle and its step alone.
+//! than a twentieth, in turbulence a tenth, and displace the particle by more than a hundredth of its diameter. The
+//! walk stays what it is as long as it may ([`nearwall::transport::langevin`]), and goes on by half of that time before
+//! and half after (Strang): all of it after would thin out tracers at a wall by a fifth, as steps become shorter
+//! towards it. Brownian motion adds its exact displacement; whether it touched a wall within a step is drawn from the
+//! Brownian bridge. All draws depend on the seed, the number of the particle and its step alone.
 
 use nalgebra::Vector3;
 
