@@ -85,9 +85,13 @@ pub(super) fn grounds(
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
     let expected = data.noise.iter().any(|offset| offset.gross > 0.0);
-    let possible = expected || !evidence.stated && evidence.readings >= LEAST_WITH_RUBBISH;
-    let shares = RUBBISH.into_iter().take(if expected { RUBBISH.len() } else { usize::from(possible) });
-    all.extend(shares.map(|share| with_rubbish(data, share)));
+    let possible = !evidence.stated && evidence.readings >= LEAST_WITH_RUBBISH;
+    let shares = match (expected, possible) {
+        (true, _) => &RUBBISH[..],
+        (false, true) => &RUBBISH[..1],
+        (false, false) => &[],
+    };
+    all.extend(shares.iter().map(|share| with_rubbish(data, *share)));
     // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
     all.extend(unstated_errors(data, &searched, evidence));

@@ -113,9 +113,10 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
     let lacks = match (causes.as_slice(), values.is_empty()) {
         ([], true) => return nothing(),
         ([], false) => {
-            let further =
-                further(diagnosis, words).unwrap_or("; no further effect is significant.".to_owned());
-            return format!("The data support {values}{further}");
+            return match further(diagnosis, words) {
+                Some(further) => format!("The data support {values}.{further}"),
+                None => format!("The data support {values}; no further effect is significant."),
+            };
         }
         ([one], _) => format!("The {subject} lacks {one}."),
         (several, _) => format!("The {subject} lacks {} effects: {}.", several.len(), several.join(", ")),
@@ -123,7 +124,7 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
     let formulas = formulas(&diagnosis.findings);
     let formula = if formulas.is_empty() { formulas } else { format!(" As a formula: {formulas}.") };
     let numbers = if values.is_empty() { values } else { format!(" The data also support {values}.") };
-    let further = further(diagnosis, words).map_or(String::new(), |more| more.replacen("; and a", " A", 1));
+    let further = further(diagnosis, words).unwrap_or_default();
     format!("{lacks}{formula}{numbers}{further}")
 }
 
@@ -150,7 +151,7 @@ fn further(diagnosis: &Diagnosis, words: &Words) -> Option<String> {
         open.iter().map(|(p, cause)| format!("{cause} ({})", probability_words(*p))).collect();
     (share > 0.5).then(|| {
         format!(
-            "; and a further cause is there ({}), but these {} cannot tell which of {}.",
+            " A further cause is there ({}), but these {} cannot tell which of {}.",
             probability_words(share),
             words.data,
             causes.join(", ")
@@ -214,7 +215,7 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
     if !diagnosis.refuted.is_empty() {
         let causes = diagnosis.refuted.join(", ");
         return format!(
-            "With {causes} the model predicts {unseen} that it has not seen no better than without: nothing is named."
+            "With {causes} the model predicts unseen {unseen} no better than without: nothing is named."
         );
     }
     let as_it_is = |one: &&ExplanationFound| one.causes.is_empty();
