@@ -43,6 +43,11 @@ impl EnergyLaw {
         })
     }
 
+    /// `A` [Pa s].
+    pub fn coefficient_mut(&mut self) -> &mut f64 {
+        &mut self.coefficient
+    }
+
     pub fn describe(self) -> String {
         let Self { coefficient, exponent } = self;
         let default = (coefficient, exponent) == (COEFFICIENT, EXPONENT);

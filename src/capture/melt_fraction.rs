@@ -69,6 +69,20 @@ impl MeltFractionCriterion {
         Ok(Self { sticky_from, flows_from })
     }
 
+    /// Key and value [1] of both shares.
+    pub(super) fn numbers_mut(&mut self) -> [(&'static str, &mut f64); 2] {
+        [("sticky_from", &mut self.sticky_from), ("flows_from", &mut self.flows_from)]
+    }
+
+    /// Moves the other share than `changed` along, where sticking would begin after it is complete.
+    pub(super) fn order(&mut self, changed: &str) {
+        if changed == "sticky_from" {
+            self.flows_from = self.flows_from.max(self.sticky_from);
+        } else {
+            self.sticky_from = self.sticky_from.min(self.flows_from);
+        }
+    }
+
     pub(super) fn describe(self) -> String {
         format!("melt-fraction, sticky_from {}, flows_from {}", self.sticky_from, self.flows_from)
     }

@@ -9,6 +9,7 @@
 //! covered share stands outside both probabilities, and a particle that only slag can hold is held
 //! with a probability of at most `1 - c`.
 
+mod correction;
 mod criterion;
 pub mod drop_bounce;
 pub mod drop_freezing;

@@ -86,6 +86,14 @@ impl ViscosityCriterion {
         format!("{} ({law}), {reference}, solidification {solidification}", self.name())
     }
 
+    /// Key and value [Pa s] of what a reference viscosity is proportional to.
+    pub(super) fn number_mut(&mut self) -> (&'static str, &mut f64) {
+        match &mut self.reference {
+            ReferenceViscosity::Constant(reference) => ("reference_viscosity", reference),
+            ReferenceViscosity::Energy(law) => ("coefficient", law.coefficient_mut()),
+        }
+    }
+
     /// The model's name in the `[capture]` table.
     pub fn name(self) -> &'static str {
         match self.reference {

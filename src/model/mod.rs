@@ -30,7 +30,7 @@ mod wall_heat;
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::capture::{Capture, StickinessCriterion};
+use crate::capture::{Capture, StickinessCriterion, Unsuitable};
 use crate::effect::Term;
 use crate::group::ProductGroup;
 use crate::impact::{EXTRA_INPUTS, ExtraInput, Impact, ImpactError, Outcome};
@@ -177,6 +177,28 @@ impl Model {
     /// The tangential law.
     pub fn tangential_law(&self) -> TangentialLaw {
         self.tangential
+    }
+
+    /// The `[capture]` table.
+    pub fn capture(&self) -> Capture {
+        self.capture
+    }
+
+    /// The same model with another `[capture]` table.
+    ///
+    /// # Errors
+    /// [`Unsuitable`] when a material lacks what the criterion needs.
+    pub fn with_capture(&self, capture: Capture) -> Result<Self, Unsuitable> {
+        let mut model = Self { capture, ..self.clone() };
+        let melting = model.particle.melting();
+        model.stickiness = capture.of_particle(melting)?;
+        for wall in &mut model.walls {
+            wall.melt = match &wall.slag {
+                Some(slag) => capture.of_slag(slag, melting)?,
+                None => None,
+            };
+        }
+        Ok(model.prepare())
     }
 
     /// The same model with other terms.

@@ -56,9 +56,8 @@ fn read_particle(
 ) -> Result<(Particle, Option<Arc<dyn StickinessCriterion>>), InputError> {
     let material = library.named_by(section, "material")?.ok_or_else(|| missing_material(section))?;
     let particle = Particle { material, ash: library.named_by(section, "ash")? };
-    let of_particle = |criterion: Criterion| criterion.of_particle(particle.melting());
-    let stickiness = capture.criterion.map(of_particle).transpose();
-    let stickiness = stickiness.map_err(|error| section.fault("material", error))?.flatten();
+    let stickiness = capture.of_particle(particle.melting());
+    let stickiness = stickiness.map_err(|error| section.fault("material", error))?;
     Ok((particle, stickiness))
 }
 
@@ -87,8 +86,7 @@ impl Model {
         let erosion = optional(top, "erosion", erosion::read)?;
         // A record of the fit for `nearwall compare`.
         optional(top, "fitted", |section| section.texts("rows"))?;
-        let criterion = capture.criterion;
-        let reader = WallReader { library: &library, criterion, particle: &particle, adhesion, erosion };
+        let reader = WallReader { library: &library, capture, particle: &particle, adhesion, erosion };
         let walls = reader.read_all(top)?;
         let extra_inputs = read_extra_inputs(top)?;
         let products = read_products(top, &extra_inputs)?;
@@ -184,7 +182,7 @@ fn read_normal(section: &Section<'_>) -> Result<(NormalLaw, ContactSettings), In
 /// What all walls of a model have in common.
 struct WallReader<'a> {
     library: &'a Library,
-    criterion: Option<Criterion>,
+    capture: Capture,
     particle: &'a Particle,
     adhesion: ContactSettings,
     /// The law of walls without one of their own.
@@ -266,9 +264,8 @@ impl WallReader<'_> {
         slag: &Material,
         section: &Section<'_>,
     ) -> Result<Arc<dyn StickinessCriterion>, InputError> {
-        let of_slag = |criterion: Criterion| criterion.of_slag(slag, self.particle.melting());
-        let melt = self.criterion.map(of_slag).transpose();
-        let melt = melt.map_err(|error| section.fault("slag", error))?.flatten();
+        let melt = self.capture.of_slag(slag, self.particle.melting());
+        let melt = melt.map_err(|error| section.fault("slag", error))?;
         melt.ok_or_else(|| section.fault("slag", self.without_criterion(slag)))
     }
 
@@ -288,7 +285,7 @@ impl WallReader<'_> {
 
     /// Why there is no criterion for the slag of a wall.
     fn without_criterion(&self, slag: &Material) -> String {
-        match self.criterion {
+        match self.capture.criterion {
             None | Some(Criterion::Droplet(_)) => {
                 "a wall with slag needs [capture] model = \"viscosity\", \"kinetic-energy\", \"melt-fraction\" or \
                  \"fusion\" to say when it is sticky"

@@ -82,6 +82,16 @@ fn near(ours: f64, exact: f64, relative: f64) {
 
 // --- paths -----------------------------------------------------------------------------------------------------------
 
+/// Radau's iteration does not converge for some of the shipped gasifier's particles (of 46.4 and 45.6 µm with its seed);
+/// the explicit method follows them from there.
+#[test]
+fn every_particle_of_the_shipped_gasifier_is_followed() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../tutorials/standalone/gasifier.toml");
+    for Trajectory { fate, diameter, .. } in trajectories(&mut Case::from_file(Path::new(file)).unwrap()).0 {
+        assert!(!matches!(fate, Fate::Unusable(_)), "{diameter} m: {fate:?}");
+    }
+}
+
 /// Stokes drag alone: v = v0 exp(-t/tau), x = v0 tau (1 - exp(-t/tau)), tau = rho d²/(18 mu).
 #[test]
 fn a_particle_in_thick_still_gas_relaxes_exponentially() {

@@ -6,7 +6,8 @@ use super::data_split::DataSplit;
 use super::record::Estimate;
 use super::search::SearchAxis;
 use nearwall::effect::{EFFECTS, EffectInfo};
-use nearwall::model::Model;
+use nearwall::law::QuantityKind;
+use nearwall::model::{Model, kind_of};
 use nearwall::normal::NormalLaw;
 use nearwall::tangential::TangentialLaw;
 
@@ -19,9 +20,14 @@ pub(super) enum LawParameter {
     TangentialRestitution,
     /// `tangential.friction`.
     Friction,
+    /// A number of the criterion of capture by its key, with its value in the base model.
+    OfCapture(&'static str, f64),
     /// A parameter of an effect, by its place.
     OfEffect(&'static EffectInfo, usize),
 }
+
+/// How far a viscosity of the criterion of capture is searched, as a factor: the literature's span five decades [1].
+const VISCOSITY_REACH: f64 = 1e3;
 
 impl LawParameter {
     /// The numbers that a model has; not those of an effect that it has twice.
@@ -30,7 +36,14 @@ impl LawParameter {
         let of_effects = EFFECTS
             .into_iter()
             .flat_map(|effect| (0..effect.parameters.len()).map(move |place| Self::OfEffect(effect, place)));
-        of_laws.into_iter().chain(of_effects).filter(|parameter| parameter.of(model).is_some()).collect()
+        let of_capture =
+            model.capture().numbers().into_iter().map(|(key, value)| Self::OfCapture(key, value));
+        of_laws
+            .into_iter()
+            .chain(of_capture)
+            .chain(of_effects)
+            .filter(|parameter| parameter.of(model).is_some())
+            .collect()
     }
 
     /// Table and key in the model file; of an effect its kind and key.
@@ -39,6 +52,7 @@ impl LawParameter {
             Self::NormalRestitution => ["normal", "e_n"],
             Self::TangentialRestitution => ["tangential", "e_t"],
             Self::Friction => ["tangential", "friction"],
+            Self::OfCapture(key, _) => ["capture", key],
             Self::OfEffect(effect, place) => [effect.id, effect.parameters[place].name],
         }
     }
@@ -47,6 +61,14 @@ impl LawParameter {
     pub fn of(self, model: &Model) -> Option<f64> {
         if let Self::OfEffect(effect, place) = self {
             return term(model, effect).and_then(|at| model.terms()[at].values().get(place).copied());
+        }
+        if let Self::OfCapture(key, _) = self {
+            return model
+                .capture()
+                .numbers()
+                .into_iter()
+                .find(|(own, _)| *own == key)
+                .map(|(_, value)| value);
         }
         self.find(&mut model.normal_law(), &mut model.tangential_law()).copied()
     }
@@ -61,6 +83,12 @@ impl LawParameter {
                 *term = term.with_values(&values);
             }
             return model.with_terms(terms);
+        }
+        if let Self::OfCapture(key, _) = self {
+            // A criterion that applies to a material does so with any number.
+            return model
+                .with_capture(model.capture().with_number(key, value))
+                .unwrap_or_else(|_| model.clone());
         }
         let (mut normal, mut tangential) = (model.normal_law(), model.tangential_law());
         if let Some(parameter) = self.find(&mut normal, &mut tangential) {
@@ -95,6 +123,10 @@ impl LawParameter {
     fn axis(self, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<SearchAxis> {
         match self {
             Self::OfEffect(effect, place) => SearchAxis::of(&effect.parameters[place], range),
+            Self::OfCapture(key, value) => Some(match kind_of(&["capture", key]) {
+                Some(QuantityKind::Share) => SearchAxis::linear(0.0, 1.0),
+                _ => SearchAxis::logarithmic(value / VISCOSITY_REACH, value * VISCOSITY_REACH),
+            }),
             _ => Some(SearchAxis::linear(0.02, 1.1)),
         }
     }

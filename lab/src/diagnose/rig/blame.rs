@@ -212,7 +212,8 @@ pub(super) fn sentences(parties: &Parties, blame: &[Blame], named: &[&str]) -> S
         }
     };
     let shares: Vec<String> = blame.iter().map(share).collect();
-    let mut text = format!(" Shares of the misfit: {}.", shares.join(", "));
+    let by = if named.is_empty() { " by the most probable explanation" } else { "" };
+    let mut text = format!(" Shares of the misfit{by}: {}.", shares.join(", "));
     let Parties { wall_law, case, both, neither } = *parties;
     if neither > wall_law + case + both {
         text += " The numbers of the case are not known better than that: no wall law is needed.";

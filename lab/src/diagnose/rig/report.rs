@@ -2,7 +2,6 @@
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
-use toml_edit::DocumentMut;
 
 use super::super::closed_form::ClosedForm;
 use super::super::constants::REFUTED;
@@ -202,8 +201,9 @@ impl RigFindings<'_> {
         if study.forward.case_numbers().is_empty() {
             all.push(NotExamined { cause: "case", reason: NO_CASE.to_owned() });
         }
-        if self.text.parse::<DocumentMut>().is_ok_and(|model| model.contains_key(CAPTURE)) {
-            all.push(NotExamined { cause: CAPTURE, reason: NO_CRITERION.to_owned() });
+        let capture = study.forward.base(0).capture();
+        if capture.criterion.is_some() && capture.numbers().is_empty() {
+            all.push(NotExamined { cause: CAPTURE, reason: NO_NUMBER.to_owned() });
         }
         all
     }
@@ -460,8 +460,7 @@ fn explain(finding: &Finding) -> String {
 
 /// The table of a model file with the criterion of capture, and why its numbers were no candidates.
 const CAPTURE: &str = "capture";
-const NO_CRITERION: &str =
-    "the numbers of its criterion are taken as they are: captures may be wrong by them, too";
+const NO_NUMBER: &str = "its criterion takes the material's numbers, which are taken as they are: captures may be wrong by them, too";
 
 /// Why no number of the case was a candidate.
 const NO_CASE: &str =
@@ -506,7 +505,7 @@ fn law_and_case(diagnosis: &Diagnosis, alone: f64, nothing: impl FnOnce() -> Str
     };
     if law.is_empty() && diagnosis.calibration.is_empty() {
         let criterion = diagnosis.not_examined.iter().any(|one| one.cause == CAPTURE);
-        let unless = if criterion { "; numbers of [capture] are not examined" } else { "" };
+        let unless = if criterion { "; what the material gives to [capture] is not examined" } else { "" };
         return format!("The case is at fault, not the wall ({}{unless}): {wrong}", probability_words(alone));
     }
     let law = Diagnosis { findings: law, ..diagnosis.clone() };
@@ -523,7 +522,9 @@ fn verdict(
     let seen = format!("{experiments} experiments with {readings} readings");
     let nothing = || nothing_found(diagnosis, &NOTHING, &seen);
     let mut text = fit_sentence(diagnosis, beside) + &law_and_case(diagnosis, parties.case, nothing);
-    let named: Vec<&str> = diagnosis.findings.iter().map(|finding| finding.cause.as_str()).collect();
+    let numbers = diagnosis.calibration.iter().map(|number| number.key.as_str());
+    let named: Vec<&str> =
+        diagnosis.findings.iter().map(|finding| finding.cause.as_str()).chain(numbers).collect();
     text += &blame::sentences(parties, blame, &named);
     let left = &diagnosis.fit.extended;
     let extends = !(diagnosis.findings.is_empty() && diagnosis.calibration.is_empty());
