@@ -2,18 +2,20 @@
 
 mod drag;
 mod drift;
+mod projection;
 mod tilt;
 mod unseen;
 
-use super::data_split::DataSplit;
+use super::hypothesis::Hypothesis;
 use super::reading::OtherReading;
 
-/// One reading for some rows; `None` where they do not have what it needs.
-type Reading = fn(&DataSplit) -> Option<OtherReading>;
+/// One reading for the rows of a hypothesis; `None` where they do not have what it needs.
+type Reading = fn(&Hypothesis<'_>) -> Option<OtherReading>;
 
 /// All of them.
-pub(super) const ALL: [Reading; 7] = [
+pub(super) const ALL: [Reading; 8] = [
     tilt::reading,
+    projection::reading,
     drag::reading,
     drift::of_e_n,
     drift::of_e_t,
