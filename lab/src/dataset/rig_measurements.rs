@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::csv_table::{CsvTable, Layout};
-use super::number::NumberStyle;
+use super::number::{NumberStyle, is_blank};
 use super::rig_observable::{OBSERVABLE_NAMES, RigQuantity};
 use super::{BadRow, DatasetError};
 
@@ -105,6 +105,7 @@ impl RigMeasurements {
             notes: notes(&table, &columns, &data_columns(&settings, experiment)),
         };
         let mut cells = csv::StringRecord::new();
+        let mut odd: Vec<BadRow> = Vec::new();
         while let Some(next) = table.next_into(&mut cells)? {
             data.read += 1;
             let row = next.and_then(|line| {
@@ -112,7 +113,8 @@ impl RigMeasurements {
                 let own = settings.iter().map(|(place, name)| (name.clone(), cell(*place)));
                 let own: Vec<(String, String)> = own.filter(|(_, cell)| !cell.is_empty()).collect();
                 let name = experiment.map(cell).filter(|name| !name.is_empty());
-                let readings = readings(&cells, &columns, table.style(), line)?;
+                let (readings, own_odd) = readings(&cells, &columns, table.style(), line)?;
+                odd.extend(own_odd);
                 data.add(line, name, own, readings)
             });
             if let Err(bad) = row {
@@ -120,6 +122,7 @@ impl RigMeasurements {
             }
         }
         data.notes.splice(0..0, table.notes());
+        data.notes.extend(odd_note(&odd));
         if data.read == 0 {
             let reason = "has a header and no rows".to_owned();
             return Err(DatasetError::Unreadable { file: file.to_owned(), reason });
@@ -207,17 +210,30 @@ fn notes<R: Read>(table: &CsvTable<R>, columns: &[ObservableColumn], read: &[usi
     )]
 }
 
+/// What is said of single readings that no reading can be.
+fn odd_note(odd: &[BadRow]) -> Option<String> {
+    let BadRow { line, reason } = odd.first()?;
+    let of = match odd.len() {
+        1 => "One reading is left out".to_owned(),
+        count => format!("{count} readings are left out, the first"),
+    };
+    Some(format!("{of} on line {line}: {reason}. The others of the row are read."))
+}
+
+/// The readings of a row, and those that are none.
+///
+/// # Errors
+/// Why the row has no reading.
 fn readings(
     cells: &csv::StringRecord,
     columns: &[ObservableColumn],
     style: NumberStyle,
     line: u64,
-) -> Result<Vec<RigReading>, BadRow> {
-    let mut readings = Vec::new();
-    for column in columns {
+) -> Result<(Vec<RigReading>, Vec<BadRow>), BadRow> {
+    let one = |column: &ObservableColumn| -> Result<Option<RigReading>, BadRow> {
         let number = |place: Option<usize>, what: &str, low: f64, high: f64| {
             let text = place.and_then(|place| cells.get(place)).unwrap_or("");
-            if text.is_empty() {
+            if is_blank(text) {
                 return Ok(None);
             }
             let value = style.parse(text).filter(|value| (low..=high).contains(value));
@@ -226,8 +242,10 @@ fn readings(
                 reason: format!("{}{what} = {text}: a number from {low} to {high} is needed", column.name),
             })
         };
-        let Some(value) = number(Some(column.value), "", 0.0, column.quantity.largest())? else { continue };
-        readings.push(RigReading {
+        let Some(value) = number(Some(column.value), "", 0.0, column.quantity.largest())? else {
+            return Ok(None);
+        };
+        Ok(Some(RigReading {
             line,
             column: column.name.clone(),
             quantity: column.quantity,
@@ -235,13 +253,16 @@ fn readings(
             value,
             error: number(column.error, "_err", 1e-9, 10.0)?,
             count: number(column.count, "_n", 1.0, 1e12)?,
-        });
-    }
+        }))
+    };
+    let (found, odd): (Vec<_>, Vec<_>) = columns.iter().map(one).partition(Result::is_ok);
+    let readings: Vec<RigReading> = found.into_iter().flatten().flatten().collect();
+    let odd: Vec<BadRow> = odd.into_iter().filter_map(Result::err).collect();
     if readings.is_empty() {
-        let reason = "no observable has a value".to_owned();
-        return Err(BadRow { line, reason });
+        let none = || BadRow { line, reason: "no observable has a value".to_owned() };
+        return Err(odd.into_iter().next().unwrap_or_else(none));
     }
-    Ok(readings)
+    Ok((readings, odd))
 }
 
 /// For each setting the cells that occur, in order.
@@ -278,6 +299,23 @@ mod tests {
         assert_eq!(data.rejected.len(), 1);
         assert!(data.rejected[0].reason.contains("other settings on line 4"));
         assert!(data.notes[0].contains("remark"));
+    }
+
+    /// An odd cell costs its own reading, and the row only where nothing else is read in it.
+    #[test]
+    fn an_odd_cell_costs_its_own_reading() {
+        let data = read(
+            "captured@a,captured@a_n,mean_e_n@a,mean_e_n@a_err\n0.5,50,0.3,0.01\n50,50,0.3,0.01\nn/a,,0.4,x\n\
+             0.1,-3,NA,\n",
+        )
+        .unwrap();
+        let readings: Vec<usize> = data.experiments.iter().map(|one| one.readings.len()).collect();
+        assert_eq!(readings, [2, 1]);
+        assert_eq!(data.rejected.len(), 2);
+        assert!(
+            data.notes[0]
+                .starts_with("One reading is left out on line 3: captured@a = 50: a number from 0 to 1")
+        );
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::explanations::{Explanations, Told, distinct};
 use super::ground::{Ground, grounds, rivals};
 use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
-use super::impact_search::{FittedImpacts as Fitted, ImpactExplanation, ImpactSearch, evidence};
+use super::impact_search::{FittedImpacts, ImpactExplanation, ImpactSearch, evidence};
 use super::interval::set_intervals;
 use super::likelihood::Scatter;
 use super::part::FittedPart;
@@ -125,7 +125,7 @@ fn rivals_of_laws(
     evidence: Evidence,
 ) -> Vec<(usize, Ground)> {
     let is_law = |one: &ImpactExplanation<'_>| {
-        let Fitted { ground, hypothesis, found } = &one.fitted;
+        let FittedImpacts { ground, hypothesis, found } = &one.fitted;
         *ground == 0 && !hypothesis.is_stochastic() && found.iter().any(|one| one.addition.is_systematic())
     };
     let best = visited.iter().position(is_law).filter(|_| task.effort.with_rivals);

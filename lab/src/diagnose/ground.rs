@@ -1,5 +1,7 @@
 //! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
 
+use rayon::prelude::*;
+
 use super::candidate::{Class, FURTHER};
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
@@ -11,7 +13,6 @@ use super::missing_inputs::MissingInputs;
 use super::reading::{OtherReading, readings};
 use super::skew::skewed;
 use super::slip::slips;
-use rayon::prelude::*;
 
 /// The rows on which additions are looked for.
 #[derive(Debug, Clone)]

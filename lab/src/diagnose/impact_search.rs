@@ -84,8 +84,8 @@ impl<'a> ImpactSearch<'a> {
         self.grounds.iter().copied().enumerate().filter(is_start).map(start).collect()
     }
 
-    /// The laws of these explanations of the rows as they are, on the grounds from `first` on that were found beside
-    /// them, with all parameters fitted together, and without each of their additions.
+    /// These explanations by laws, each on the ground with this index, with all parameters fitted together; and the best
+    /// of them without each of its additions.
     pub fn on_grounds(&self, laws: &[(usize, &ImpactExplanation<'a>)]) -> Vec<ImpactExplanation<'a>> {
         let on = |&(place, law): &(usize, &ImpactExplanation<'a>)| {
             let ground = self.grounds[place];

@@ -155,12 +155,14 @@ pub struct RunTotals {
     pub too_seldom: u64,
     /// Number of particles that ended where the gas has no gradient of temperature, though thermophoresis is on.
     pub without_gradient: u64,
+    /// Why the gas would hardly flow as the case says.
+    pub doubt: Option<String>,
 }
 
 impl RunTotals {
     pub(super) fn new(case: &Case) -> Self {
-        let mut totals =
-            Self { injections: vec![ParticleEnds::default(); case.injections.len()], ..Self::default() };
+        let injections = vec![ParticleEnds::default(); case.injections.len()];
+        let mut totals = Self { injections, doubt: case.gas.doubt(), ..Self::default() };
         for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
                 SurfaceKind::Wall { .. } => {
@@ -230,6 +232,7 @@ impl RunTotals {
     /// What the results are not good for, a line for each reason.
     pub fn warnings(&self) -> Vec<String> {
         let mut lines = self.ranges.lines("hits");
+        lines.extend(self.doubt.clone());
         if self.too_seldom > 0 {
             lines.push(format!(
                 "{} of {} particles have relaxation times of 0.3 to 4 in wall units: turbulence brings fewer than \

@@ -19,6 +19,9 @@ use nearwall::input::{InputError, Section};
 
 /// Places over half a cross-section at which the mean of a profile is taken.
 const MEAN_POINTS: u32 = 2000;
+/// Reynolds numbers [1] up to which turbulence dies out in ducts, and from which a laminar flow needs a smooth inlet
+/// and quiet gas.
+const TRANSITION: [f64; 2] = [2000.0, 4000.0];
 
 /// Flow along a duct.
 #[derive(Debug)]
@@ -27,6 +30,8 @@ pub struct Duct {
     along: Vector3<f64>,
     section: CrossSection,
     flow: Flow,
+    /// Reynolds number with the hydraulic diameter [1].
+    reynolds: f64,
 }
 
 /// The form of a duct.
@@ -73,7 +78,8 @@ impl Duct {
             None => return Err(section.missing("flow", "\"laminar\" or \"turbulent\"")),
         };
         let centre = vector(section, "centre")?.unwrap_or_default();
-        Ok(Self { centre, along, section: cross_section, flow })
+        let reynolds = speed * cross_section.hydraulic_diameter() / viscosity;
+        Ok(Self { centre, along, section: cross_section, flow, reynolds })
     }
 }
 
@@ -169,6 +175,19 @@ impl VelocityField for Duct {
             Flow::Laminar(_) => None,
         }
     }
+
+    fn doubt(&self) -> Option<String> {
+        let (is, would) = match self.flow {
+            Flow::Turbulent { .. } if self.reynolds < TRANSITION[0] => ("turbulent", "laminar"),
+            Flow::Laminar(_) if self.reynolds > TRANSITION[1] => ("laminar", "turbulent"),
+            _ => return None,
+        };
+        Some(format!(
+            "the gas is {is} at a Reynolds number of {:.0}, at which ducts are {would}: check `gas.flow`, `speed` and \
+             `viscosity`",
+            self.reynolds
+        ))
+    }
 }
 
 /// Mean velocity over the friction velocity [1] at `y+` [1].
@@ -194,6 +213,27 @@ mod tests {
         for (reynolds, factor) in [(1e4, 0.0309), (1e5, 0.0180), (1e6, 0.0116)] {
             let ours = 8.0 * smooth_friction_velocity(1.0, 1.0, 1.0 / reynolds).powi(2);
             assert!((ours / factor - 1.0).abs() < 0.01, "Re {reynolds}: {ours}");
+        }
+    }
+
+    /// Reynolds' experiment: pipes are laminar at 400 and turbulent at 70 000; in between either may be.
+    #[test]
+    fn an_unlikely_flow_is_doubted() {
+        let turbulent = Flow::Turbulent { friction_velocity: 0.1, per_length: 1e4, scale: 1.0 };
+        for (flow, reynolds, word) in [
+            (turbulent, 400.0, Some("laminar:")),
+            (turbulent, 7e4, None),
+            (Flow::Laminar(1.0), 400.0, None),
+            (Flow::Laminar(1.0), 7e4, Some("turbulent:")),
+            (Flow::Laminar(1.0), 3000.0, None),
+            (turbulent, 3000.0, None),
+        ] {
+            let along = Vector3::z();
+            let duct =
+                Duct { centre: Vector3::zeros(), along, section: CrossSection::Round(0.01), flow, reynolds };
+            let doubt = duct.doubt();
+            assert_eq!(doubt.is_some(), word.is_some(), "{reynolds}: {doubt:?}");
+            assert!(word.is_none_or(|word| doubt.is_some_and(|doubt| doubt.contains(word))), "{reynolds}");
         }
     }
 

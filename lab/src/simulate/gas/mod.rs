@@ -33,6 +33,11 @@ pub trait VelocityField: Send + Sync + std::fmt::Debug {
     fn turbulent_duct(&self) -> Option<[f64; 2]> {
         None
     }
+
+    /// Why gas would hardly flow like this, in words; `None` where nothing speaks against it.
+    fn doubt(&self) -> Option<String> {
+        None
+    }
 }
 
 /// A gas: its velocity field, temperature and properties.
@@ -179,6 +184,11 @@ impl Gas {
         let other = coldest.max(low).min(high);
         let there = property.at(other).ok().map(|conductivity| [other, conductivity]);
         VoidGas::through([temperature, conductivity], there)
+    }
+
+    /// Why gas would hardly flow like its field, in words.
+    pub fn doubt(&self) -> Option<String> {
+        self.field.doubt()
     }
 
     /// The same gas at one temperature [K] everywhere.
