@@ -47,7 +47,7 @@ pub(in crate::report) fn tornado(
     let bottom = HEAD + ROW * rows.len() as f64;
     let mut svg = legend() + &axis([low, high], bottom, label);
     let x = at(middle);
-    svg += &format!("<path d=\"M{x:.1} {HEAD}V{bottom:.1}\" stroke=\"#444444\" stroke-dasharray=\"4 3\"/>");
+    svg += &format!("<path d=\"M{x:.1} {HEAD}V{bottom:.1}\" stroke=\"dimgray\" stroke-dasharray=\"4 3\"/>");
     for (place, row) in rows.iter().enumerate() {
         svg += &bars(row, HEAD + ROW * place as f64, at(middle), &at);
     }
@@ -84,7 +84,7 @@ fn axis([low, high]: [f64; 2], bottom: f64, label: &str) -> String {
     for (share, number) in ticks(low, high, 6) {
         let x = MARGIN + (WIDTH - 2.0 * MARGIN) * share;
         // Writing to a text cannot fail.
-        let _ = write!(svg, "<path d=\"M{x:.1} {HEAD}V{:.1}\" stroke=\"#dddddd\"/>", bottom + 4.0);
+        let _ = write!(svg, "<path d=\"M{x:.1} {HEAD}V{:.1}\" stroke=\"lightgray\"/>", bottom + 4.0);
         svg += &text_at([x, bottom + 18.0], "middle", &number);
     }
     svg + &text_at([0.5 * WIDTH, bottom + 38.0], "middle", label)
