@@ -52,6 +52,9 @@ pub fn melt_fraction_stickiness(melt_fraction: f64, sticky_from: f64, flows_from
     }
 }
 
+/// All temperatures [K].
+const ALL: [f64; 2] = [0.0, f64::INFINITY];
+
 /// The melt-fraction criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeltFractionCriterion {
@@ -75,8 +78,14 @@ impl MeltFractionCriterion {
 
     /// The criterion for a material; `None` for one without a melt fraction.
     pub fn prepare(self, material: &Material) -> Option<MeltFractionStickiness> {
-        material.property("melt_fraction")?;
-        Some(MeltFractionStickiness { criterion: self, material: Box::new(material.clone()) })
+        let known = material.property("melt_fraction")?.known_range();
+        let complete = |temperature: f64| {
+            material.melt_fraction_near(temperature).is_some_and(|fraction| [0.0, 1.0].contains(&fraction))
+        };
+        let stated = known.map_or(ALL, |[low, high]| {
+            [if complete(low) { ALL[0] } else { low }, if complete(high) { ALL[1] } else { high }]
+        });
+        Some(MeltFractionStickiness { criterion: self, material: Box::new(material.clone()), stated })
     }
 }
 
@@ -85,6 +94,8 @@ impl MeltFractionCriterion {
 pub struct MeltFractionStickiness {
     criterion: MeltFractionCriterion,
     material: Box<Material>,
+    /// Temperatures [K] of the table; beyond an end at which all is solid or liquid it holds too.
+    stated: [f64; 2],
 }
 
 impl MeltFractionStickiness {
@@ -119,17 +130,19 @@ impl StickinessCriterion for MeltFractionStickiness {
     }
 
     fn known_range(&self) -> [f64; 2] {
-        [0.0, f64::INFINITY]
+        ALL
+    }
+
+    fn stated_range(&self) -> [f64; 2] {
+        self.stated
     }
 
     fn fastest(&self) -> f64 {
         FASTEST_WITHOUT_SPEED
     }
 
-    /// Within the table; beyond an end where all is solid or liquid it holds too.
     fn holds_in_flight(&self, temperature: f64) -> bool {
-        let complete = [0.0, 1.0].contains(&self.melt_fraction(temperature));
-        complete || self.material.property("melt_fraction").is_some_and(|p| p.at(temperature).is_ok())
+        (self.stated[0]..=self.stated[1]).contains(&temperature)
     }
 }
 

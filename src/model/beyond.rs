@@ -79,20 +79,6 @@ impl Beyond<'_> {
         matches!(self.what, Stated::Property { .. })
     }
 
-    /// What happens outside of the range, and what [`Displaced`](super::Displaced) changes to see whether
-    /// it matters; `None` for a law whose alternative nobody knows.
-    pub fn trial(&self) -> Option<String> {
-        match self.what {
-            Stated::Property { .. } => {
-                Some(format!("held there; its uncertainty (at least {} %)", 100.0 * LEAST_SHARE))
-            }
-            Stated::Criterion { .. } => {
-                Some(format!("used beyond; a viscosity {VISCOSITY_FACTOR} times higher or lower"))
-            }
-            Stated::CriterionSpeed { .. } | Stated::Law { .. } => None,
-        }
-    }
-
     /// What is used and its range, without the value of this impact: the same text for every impact
     /// that leaves the same range.
     pub fn stated(&self) -> String {

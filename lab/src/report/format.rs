@@ -37,6 +37,31 @@ pub fn shown_unit(unit: &str, largest: f64) -> (f64, String) {
     }
 }
 
+/// How times [s] up to the longest one are shown: the seconds of a unit, and its name.
+pub fn time_unit(longest: f64) -> (f64, &'static str) {
+    match longest {
+        seconds if seconds > 5.0 * 3600.0 => (3600.0, "h"),
+        seconds if seconds > 300.0 => (60.0, "min"),
+        _ => (1.0, "s"),
+    }
+}
+
+/// A time [s] in the unit that fits.
+pub fn duration(seconds: f64) -> String {
+    let (length, unit) = time_unit(seconds);
+    format!("{} {unit}", number(seconds / length))
+}
+
+/// A mean with its standard deviation, both to the second digit of the deviation.
+pub fn with_deviation(mean: f64, deviation: f64) -> String {
+    if !deviation.is_finite() || deviation == 0.0 || !mean.is_finite() {
+        return format!("{} ± {}", number(mean), number(deviation));
+    }
+    let unit = 10f64.powf(deviation.abs().log10().floor() - 1.0);
+    let [mean, deviation] = [mean, deviation].map(|value| number((value / unit).round() * unit));
+    format!("{mean} ± {deviation}")
+}
+
 /// A number with its unit; shares (unit `1` or empty) have none.
 pub fn with_unit(value: f64, unit: &str) -> String {
     let (factor, unit) = shown_unit(unit, value);
@@ -124,6 +149,18 @@ mod tests {
         assert_eq!((short.as_str(), long.as_str()), ("5 to 200 µm", "5e-6 to 0.2 m"));
         assert_eq!((with_unit(7.5e-5, "m").as_str(), with_unit(0.4, "J/m2").as_str()), ("75 µm", "0.4 J/m²"));
         assert_eq!((with_unit(0.5, "1").as_str(), span([0.1, 0.5], "1").as_str()), ("0.5", "0.1 to 0.5"));
+    }
+
+    #[test]
+    fn times_have_the_unit_that_fits() {
+        assert_eq!([0.02, 300.0, 3600.0, 86_400.0].map(duration), ["0.02 s", "300 s", "60 min", "24 h"]);
+    }
+
+    #[test]
+    fn a_mean_has_no_more_digits_than_its_deviation() {
+        let pairs = [(3.4641, 0.7834), (63.52, 21.9), (6.988e-4, 0.0016), (1.0, 0.0), (1234.0, 210.0)];
+        let texts = pairs.map(|(mean, deviation)| with_deviation(mean, deviation));
+        assert_eq!(texts, ["3.46 ± 0.78", "64 ± 22", "7e-4 ± 0.0016", "1 ± 0", "1230 ± 210"]);
     }
 
     #[test]

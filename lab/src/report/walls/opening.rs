@@ -9,7 +9,7 @@ use super::surfaces::scale_ends;
 use super::{RunComparison, number};
 use crate::report::Figure;
 use crate::report::chart::{COLUMN_WIDTH, ColourScale, PlanePicture, text_at};
-use crate::report::format::with_unit;
+use crate::report::format::{duration, with_unit};
 use crate::results::surface::{SurfaceQuantity, WallFace, WallSurface};
 use crate::results::{MapCell, RunResults, extent};
 
@@ -83,9 +83,9 @@ fn caption(walls: &[(&WallSurface, (SurfaceQuantity, &Vec<f64>))]) -> String {
         .iter()
         .map(|(wall, (_, values))| format!("{} {}", wall.wall, with_unit(wall.integral(values), "kg")));
     format!(
-        "Seen from outside through the walls in front, at {} s; the walls extend over {} m along x, y and z. On them: \
+        "Seen from outside through the walls in front, at {}; the walls extend over {} m along x, y and z. On them: \
             {}.",
-        number(walls[0].0.time),
+        duration(walls[0].0.time),
         size.join(" × "),
         masses.collect::<Vec<_>>().join(", ")
     )
