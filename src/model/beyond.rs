@@ -6,7 +6,6 @@
 
 use std::fmt;
 
-use super::displaced::{LEAST_SHARE, VISCOSITY_FACTOR};
 use super::general_wall::Watcher;
 use super::groups::ImpactOnWall;
 use super::wall::WallPlace;

@@ -2,6 +2,7 @@
 
 use super::places::map_figures;
 use super::{later_captures, number, percent};
+use crate::report::format::with_deviation;
 use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Run, RunTotals};
@@ -174,7 +175,10 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         format!("{part} ({low} to {high})")
     };
     let label = axis.label();
-    let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| number(merged(run, of).0);
+    let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| {
+        let (mean, error) = merged(run, of);
+        if mean.is_finite() { with_deviation(mean, error) } else { number(mean) }
+    };
     let columns: [TableColumn<'_, Run>; 9] = [
         (&label, &|run| number(axis.value(run))),
         ("first hits", &|run| run.totals.first_hits()[0].to_string()),
@@ -186,5 +190,5 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("resultant impact speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
         ("mass balance", &|run| number(run.totals.ends.balance_error())),
     ];
-    Table::of_items("", 0, runs, &columns)
+    Table::of_items("Means ± standard error.", 0, runs, &columns)
 }
