@@ -54,12 +54,23 @@ pub fn duration(seconds: f64) -> String {
 
 /// A mean with its standard deviation, both to the second digit of the deviation.
 pub fn with_deviation(mean: f64, deviation: f64) -> String {
-    if !deviation.is_finite() || deviation == 0.0 || !mean.is_finite() {
-        return format!("{} ± {}", number(mean), number(deviation));
-    }
-    let unit = 10f64.powf(deviation.abs().log10().floor() - 1.0);
-    let [mean, deviation] = [mean, deviation].map(|value| number((value / unit).round() * unit));
+    let [mean, deviation] = [mean, deviation].map(|value| number(rounded(value, deviation)));
     format!("{mean} ± {deviation}")
+}
+
+/// A value and its interval, all to the second digit of half the interval: "0.17" and "0 to 1.5".
+pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> (String, String) {
+    let [value, low, high] = [value, low, high].map(|one| number(rounded(one, 0.5 * (high - low))));
+    (value, format!("{low} to {high}"))
+}
+
+/// A value to the second digit of what it is uncertain by.
+fn rounded(value: f64, uncertain_by: f64) -> f64 {
+    if !uncertain_by.is_finite() || uncertain_by == 0.0 {
+        return value;
+    }
+    let unit = 10f64.powf(uncertain_by.abs().log10().floor() - 1.0);
+    (value / unit).round() * unit
 }
 
 /// A number with its unit; shares (unit `1` or empty) have none.
@@ -160,6 +171,8 @@ mod tests {
     fn a_mean_has_no_more_digits_than_its_deviation() {
         let pairs = [(3.4641, 0.7834), (63.52, 21.9), (6.988e-4, 0.0016), (1.0, 0.0), (1234.0, 210.0)];
         let texts = pairs.map(|(mean, deviation)| with_deviation(mean, deviation));
+        let (value, interval) = with_interval(0.1721, [8.4e-7, 1.512]);
+        assert_eq!((value.as_str(), interval.as_str()), ("0.17", "0 to 1.51"));
         assert_eq!(texts, ["3.46 ± 0.78", "64 ± 22", "7e-4 ± 0.0016", "1 ± 0", "1230 ± 210"]);
     }
 
