@@ -149,6 +149,8 @@ impl StickinessCriterion for MeltFractionStickiness {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Document;
+    use crate::material::Library;
     use approx::assert_relative_eq;
 
     /// By hand: 0.15 + 0.55/4 = 0.2875 is a quarter of the way.
@@ -159,6 +161,18 @@ mod tests {
         assert_eq!([0.70, 0.9, 1.0].map(stickiness), [1.0; 3]);
         assert_relative_eq!(stickiness(0.2875), 0.25, max_relative = 1e-12);
         assert_relative_eq!(stickiness(0.425), 0.5, max_relative = 1e-12);
+    }
+
+    /// Where the last row is not all liquid, the criterion is not stated beyond it; where the first is all solid, it is.
+    #[test]
+    fn a_table_holds_beyond_an_end_that_is_solid_or_liquid() {
+        let text = "[a]\nlike = \"straw-ash\"\n\
+                    melt_fraction = { T = [1043, 1143, 1413], value = [0, 0.15, 0.8] }\n";
+        let library = Document::new("m.toml", text).read(|top| Library::built_in()?.with(top)).unwrap();
+        let criterion = MeltFractionCriterion { sticky_from: STICKY_FROM, flows_from: FLOWS_FROM };
+        let ash = criterion.prepare(library.get("a").unwrap()).unwrap();
+        assert_eq!(ash.stated_range(), [0.0, 1413.0]);
+        assert_eq!([300.0, 1413.0, 1414.0].map(|kelvin| ash.holds_in_flight(kelvin)), [true, true, false]);
     }
 
     #[test]

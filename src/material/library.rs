@@ -127,6 +127,18 @@ mod tests {
         document.read(with).map_err(|error| error.to_string())
     }
 
+    #[test]
+    fn a_formula_or_a_part_of_a_name_leads_to_the_material() {
+        let library = Library::built_in().unwrap();
+        for (word, meant) in
+            [("KCl", "`potassium-chloride`?"), ("straw", "`straw-ash`?"), ("tungstn", "`tungsten`?")]
+        {
+            let message = library.unknown(word);
+            assert!(message.contains(&format!("did you mean {meant}")), "{message}");
+        }
+        assert!(!library.unknown("xyz").contains("did you mean"));
+    }
+
     /// What a property is, in bits: the written form of a number is that of its bits.
     fn written(material: &Material) -> String {
         let properties: Vec<_> = material.properties().collect();

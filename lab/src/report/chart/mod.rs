@@ -392,6 +392,8 @@ mod tests {
             first.svg.contains("viewBox=\"0 0 480 328\"") && first.svg.contains("aria-label=\"t &lt; u\"")
         );
         assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
+        // The page colours what is named.
+        assert!(first.svg.contains("\"black\"") && !first.svg.contains("#000000"), "{}", first.svg);
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
     }
 

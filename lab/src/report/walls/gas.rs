@@ -10,7 +10,7 @@ use crate::results::{RunResults, extent, range};
 /// Most parcels that are drawn.
 const MOST_DOTS: usize = 5000;
 /// Largest width and height of the plot, and the least of either [px].
-const MOST: [f64; 2] = [400.0, 600.0];
+const MOST: [f64; 2] = [300.0, 450.0];
 const LEAST_SIDE: f64 = 24.0;
 /// Least and largest height of the bars of colours, and least size of the drawing [px].
 const BAR_HEIGHT: [f64; 2] = [150.0, 260.0];

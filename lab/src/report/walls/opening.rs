@@ -18,7 +18,7 @@ const VIEW: [f64; 3] = [-0.55, 0.65, -0.52];
 /// Most faces that are drawn.
 const MOST_FACES: usize = 8000;
 /// Largest width and height of the plot, and least size of the drawing [px].
-const MOST: [f64; 2] = [380.0, 330.0];
+const MOST: [f64; 2] = [330.0, 300.0];
 const LEAST: [f64; 2] = [480.0, 220.0];
 /// Length of the arrows that show the axes, as a share of the picture's extent [1].
 const ARROW: f64 = 0.08;
