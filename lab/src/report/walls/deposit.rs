@@ -131,7 +131,7 @@ pub(super) fn heat_words(comparison: &RunComparison<'_>) -> Option<String> {
             let [[cold, hot], [before, after]] = [temperatures.map(f64::round), fluxes.map(|flux| 1e-3 * flux)];
             let [before, after] = [before, after].map(|flux| number((10.0 * flux).round() / 10.0));
             format!(
-                "On {} the surface that impacts meet goes from {cold} to {hot} K within {}, and the heat through the \
+                "On {} the surface that impacts meet goes from {cold} to {hot} K over {}, and the heat through the \
                  wall from {before} to {after} kW/m² (means over the wall).",
                 wall.wall,
                 duration(*end)
