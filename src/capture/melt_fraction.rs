@@ -163,7 +163,7 @@ mod tests {
         assert_relative_eq!(stickiness(0.425), 0.5, max_relative = 1e-12);
     }
 
-    /// Where the last row is not all liquid, the criterion is not stated beyond it; where the first is all solid, it is.
+    /// The last row is not all liquid, so the criterion is not stated beyond it; the first is all solid.
     #[test]
     fn a_table_holds_beyond_an_end_that_is_solid_or_liquid() {
         let text = "[a]\nlike = \"straw-ash\"\n\

@@ -122,7 +122,8 @@ impl<'a> PlanePicture<'a> {
         let crisp = " shape-rendering=\"crispEdges\"";
         let (id, cells) = (self.id, self.svg.replace(crisp, ""));
         self.svg = format!(
-            "<defs><g id=\"{id}-cells\">{cells}</g></defs><use href=\"#{id}-cells\" stroke=\"black\" stroke-width=\"2\" \
+            "<defs><g id=\"{id}-cells\">{cells}</g></defs><use href=\"#{id}-cells\" stroke=\"black\" \
+             stroke-width=\"2\" \
              stroke-linejoin=\"round\"/><use href=\"#{id}-cells\"{crisp}/>"
         );
     }
@@ -256,7 +257,8 @@ pub(in crate::report) fn swatch(fill: &str, [x, y]: [f64; 2], lines: &[&str]) ->
     };
     let lines: String = lines.iter().enumerate().map(line).collect();
     format!(
-        "<rect x=\"{x}\" y=\"{y}\" width=\"12\" height=\"12\" fill=\"{fill}\" stroke=\"black\" stroke-width=\".5\"/>{lines}"
+        "<rect x=\"{x}\" y=\"{y}\" width=\"12\" height=\"12\" fill=\"{fill}\" stroke=\"black\" \
+         stroke-width=\".5\"/>{lines}"
     )
 }
 
