@@ -471,10 +471,16 @@ pub fn alike(word: &str, meant: &str) -> bool {
 pub fn unknown(word: &str, what: &str, known: &[&str]) -> String {
     let likeness = |candidate: &str| strsim::jaro_winkler(word, candidate);
     let nearest = known.iter().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let hint = match nearest {
-        Some(candidate) if likeness(candidate) > 0.75 => format!("; did you mean `{candidate}`?"),
-        _ => String::new(),
-    };
+    let meant: Vec<&str> =
+        nearest.copied().filter(|candidate| likeness(candidate) > 0.75).into_iter().collect();
+    unknown_meaning(word, what, known, &meant)
+}
+
+/// The same where the words that are probably meant are known.
+pub fn unknown_meaning(word: &str, what: &str, known: &[&str], meant: &[&str]) -> String {
+    let quoted: Vec<String> = meant.iter().map(|candidate| format!("`{candidate}`")).collect();
+    let hint =
+        if quoted.is_empty() { String::new() } else { format!("; did you mean {}?", quoted.join(" or ")) };
     let list = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
     format!("unknown {what} `{word}`{hint} (known here: {list})")
 }

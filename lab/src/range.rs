@@ -58,7 +58,7 @@ impl<'m> RangeReader<'m> {
                 self.displaced.moved(wall, impact, plain, beyond, DRAWS).ok()?
             };
             let moved = if measured(&stated) { moved() } else { None };
-            Reason { stated, value: beyond.value(), trial: beyond.trial(), moved }
+            Reason { stated, value: beyond.value(), trial: self.displaced.trial(beyond), moved }
         };
         let reasons: Vec<Reason> = found.iter().map(reason).collect();
         if reasons.is_empty() {

@@ -52,6 +52,9 @@ pub fn melt_fraction_stickiness(melt_fraction: f64, sticky_from: f64, flows_from
     }
 }
 
+/// All temperatures [K].
+const ALL: [f64; 2] = [0.0, f64::INFINITY];
+
 /// The melt-fraction criterion of a `[capture]` table.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MeltFractionCriterion {
@@ -89,8 +92,14 @@ impl MeltFractionCriterion {
 
     /// The criterion for a material; `None` for one without a melt fraction.
     pub fn prepare(self, material: &Material) -> Option<MeltFractionStickiness> {
-        material.property("melt_fraction")?;
-        Some(MeltFractionStickiness { criterion: self, material: Box::new(material.clone()) })
+        let known = material.property("melt_fraction")?.known_range();
+        let complete = |temperature: f64| {
+            material.melt_fraction_near(temperature).is_some_and(|fraction| [0.0, 1.0].contains(&fraction))
+        };
+        let stated = known.map_or(ALL, |[low, high]| {
+            [if complete(low) { ALL[0] } else { low }, if complete(high) { ALL[1] } else { high }]
+        });
+        Some(MeltFractionStickiness { criterion: self, material: Box::new(material.clone()), stated })
     }
 }
 
@@ -99,6 +108,8 @@ impl MeltFractionCriterion {
 pub struct MeltFractionStickiness {
     criterion: MeltFractionCriterion,
     material: Box<Material>,
+    /// Temperatures [K] of the table; beyond an end at which all is solid or liquid it holds too.
+    stated: [f64; 2],
 }
 
 impl MeltFractionStickiness {
@@ -133,23 +144,27 @@ impl StickinessCriterion for MeltFractionStickiness {
     }
 
     fn known_range(&self) -> [f64; 2] {
-        [0.0, f64::INFINITY]
+        ALL
+    }
+
+    fn stated_range(&self) -> [f64; 2] {
+        self.stated
     }
 
     fn fastest(&self) -> f64 {
         FASTEST_WITHOUT_SPEED
     }
 
-    /// Within the table; beyond an end where all is solid or liquid it holds too.
     fn holds_in_flight(&self, temperature: f64) -> bool {
-        let complete = [0.0, 1.0].contains(&self.melt_fraction(temperature));
-        complete || self.material.property("melt_fraction").is_some_and(|p| p.at(temperature).is_ok())
+        (self.stated[0]..=self.stated[1]).contains(&temperature)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::Document;
+    use crate::material::Library;
     use approx::assert_relative_eq;
 
     /// By hand: 0.15 + 0.55/4 = 0.2875 is a quarter of the way.
@@ -160,6 +175,18 @@ mod tests {
         assert_eq!([0.70, 0.9, 1.0].map(stickiness), [1.0; 3]);
         assert_relative_eq!(stickiness(0.2875), 0.25, max_relative = 1e-12);
         assert_relative_eq!(stickiness(0.425), 0.5, max_relative = 1e-12);
+    }
+
+    /// The last row is not all liquid, so the criterion is not stated beyond it; the first is all solid.
+    #[test]
+    fn a_table_holds_beyond_an_end_that_is_solid_or_liquid() {
+        let text = "[a]\nlike = \"straw-ash\"\n\
+                    melt_fraction = { T = [1043, 1143, 1413], value = [0, 0.15, 0.8] }\n";
+        let library = Document::new("m.toml", text).read(|top| Library::built_in()?.with(top)).unwrap();
+        let criterion = MeltFractionCriterion { sticky_from: STICKY_FROM, flows_from: FLOWS_FROM };
+        let ash = criterion.prepare(library.get("a").unwrap()).unwrap();
+        assert_eq!(ash.stated_range(), [0.0, 1413.0]);
+        assert_eq!([300.0, 1413.0, 1414.0].map(|kelvin| ash.holds_in_flight(kelvin)), [true, true, false]);
     }
 
     #[test]

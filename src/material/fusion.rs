@@ -13,8 +13,8 @@ use crate::slag::{FusionTemperatures, OutsideAshes};
 /// The key in files.
 pub(super) const KEY: &str = "fusion_temperatures";
 
-/// Half width of the 90 % band of a measured fusion temperature [K]; assumed.
-const SHEET_BAND: f64 = 40.0;
+/// Half width of the 90 % band of a measured fusion temperature without an `uncertainty` [K]; assumed.
+pub const SHEET_BAND: f64 = 40.0;
 
 const LIMITS: Limits =
     Limits { unit: "K", low: 700.0, high: 3000.0, known: "ashes 1000 to 1900; add 273.15 to a sheet in °C" };

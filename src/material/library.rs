@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use super::Material;
-use crate::input::{Document, InputError, Section, unknown};
+use crate::input::{Document, InputError, Section, unknown, unknown_meaning};
 
 /// The file of the built-in materials.
 pub const BUILT_IN_TEXT: &str = include_str!("materials.toml");
@@ -75,7 +75,7 @@ impl Library {
                     format!("`{name}` is not built in, so it has nothing to extend; name another one");
                 Err(table.fault("like", problem))
             }
-            None => Err(table.fault("like", unknown(&base, "material", &self.names()))),
+            None => Err(table.fault("like", self.unknown(&base))),
         }
     }
 
@@ -89,6 +89,21 @@ impl Library {
         self.materials.keys().map(String::as_str).collect()
     }
 
+    /// The message for a name that no material has, with those whose name or description contains it as a word: `KCl`
+    /// is potassium chloride.
+    pub fn unknown(&self, name: &str) -> String {
+        let is_word = |text: &str| {
+            text.split(|c: char| !c.is_alphanumeric()).any(|word| word.eq_ignore_ascii_case(name))
+        };
+        let described = |material: &Material| material.about().is_some_and(is_word);
+        let meant = self.materials.iter().filter(|(own, material)| is_word(own) || described(material));
+        let meant: Vec<&str> = meant.map(|(own, _)| own.as_str()).collect();
+        match meant.as_slice() {
+            [] => unknown(name, "material", &self.names()),
+            meant => unknown_meaning(name, "material", &self.names(), meant),
+        }
+    }
+
     /// The material that `key` of a section names.
     ///
     /// # Errors
@@ -97,7 +112,7 @@ impl Library {
         let Some(name) = section.text(key)? else { return Ok(None) };
         match self.get(&name) {
             Some(material) => Ok(Some(material.clone())),
-            None => Err(section.fault(key, unknown(&name, "material", &self.names()))),
+            None => Err(section.fault(key, self.unknown(&name))),
         }
     }
 }
@@ -110,6 +125,18 @@ mod tests {
         let document = Document::new("m.toml", text);
         let with = |top: &Section<'_>| Library::built_in()?.with(&top.required_section("materials")?);
         document.read(with).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_formula_or_a_part_of_a_name_leads_to_the_material() {
+        let library = Library::built_in().unwrap();
+        for (word, meant) in
+            [("KCl", "`potassium-chloride`?"), ("straw", "`straw-ash`?"), ("tungstn", "`tungsten`?")]
+        {
+            let message = library.unknown(word);
+            assert!(message.contains(&format!("did you mean {meant}")), "{message}");
+        }
+        assert!(!library.unknown("xyz").contains("did you mean"));
     }
 
     /// What a property is, in bits: the written form of a number is that of its bits.

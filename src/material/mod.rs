@@ -11,6 +11,7 @@ use crate::input::{InputError, Limits, Section};
 use crate::law::QuantityKind;
 use crate::slag::{Composition, CompositionError, FusionTemperatures, Molten, surface_tension};
 
+pub use fusion::SHEET_BAND;
 pub use library::{BUILT_IN_TEXT, Library, built_in_toml};
 pub use property::{OutOfRange, Property};
 

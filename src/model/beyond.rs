@@ -6,7 +6,6 @@
 
 use std::fmt;
 
-use super::displaced::{LEAST_SHARE, VISCOSITY_FACTOR};
 use super::general_wall::Watcher;
 use super::groups::ImpactOnWall;
 use super::wall::WallPlace;
@@ -77,20 +76,6 @@ impl Beyond<'_> {
     /// Whether a property is held constant; otherwise a law, a criterion or a term is beyond its fit.
     pub fn is_held(&self) -> bool {
         matches!(self.what, Stated::Property { .. })
-    }
-
-    /// What happens outside of the range, and what [`Displaced`](super::Displaced) changes to see whether
-    /// it matters; `None` for a law whose alternative nobody knows.
-    pub fn trial(&self) -> Option<String> {
-        match self.what {
-            Stated::Property { .. } => {
-                Some(format!("held there; its uncertainty (at least {} %)", 100.0 * LEAST_SHARE))
-            }
-            Stated::Criterion { .. } => {
-                Some(format!("used beyond; a viscosity {VISCOSITY_FACTOR} times higher or lower"))
-            }
-            Stated::CriterionSpeed { .. } | Stated::Law { .. } => None,
-        }
     }
 
     /// What is used and its range, without the value of this impact: the same text for every impact

@@ -85,6 +85,17 @@ impl<'m> Displaced<'m> {
         Ok(Some(most))
     }
 
+    /// What happens outside of the range, and what is changed to see whether it matters; `None` where nobody knows the
+    /// alternative.
+    pub fn trial(&self, beyond: &Beyond<'_>) -> Option<String> {
+        self.models_for(beyond)?;
+        Some(if beyond.is_held() {
+            format!("held there; its uncertainty (at least {} %)", 100.0 * LEAST_SHARE)
+        } else {
+            format!("used beyond; a viscosity {VISCOSITY_FACTOR} times higher or lower")
+        })
+    }
+
     fn models_for(&self, beyond: &Beyond<'_>) -> Option<&[Model; 2]> {
         match beyond.what {
             Stated::Property { material, key } => {

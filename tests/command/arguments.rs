@@ -184,6 +184,7 @@ fn bad_input_is_refused_with_its_place() {
     );
     refused(at, &["predict", "--model", "m.toml", "i.csv", "--wall", "roof"], &["roof", "default"]);
     refused(at, &["materials", "tungstn"], &["did you mean `tungsten`"]);
+    refused(at, &["materials", "kcl"], &["did you mean `potassium-chloride`?"]);
     refused(at, &["materials", "tungsten", "--temperature=-3"], &["--temperature"]);
     let ash = done(at, &["materials", "fly-ash"]);
     assert!(ash.contains(" K (90 % band, estimated from the composition)"), "{ash}");

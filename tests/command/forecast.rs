@@ -285,7 +285,7 @@ youngs_modulus = 7e10
 poisson_ratio = 0.2
 yield_strength = 1e10
 surface_energy = 0.5
-fusion_temperatures = { deformation = 1300, softening = 1366.6667, flow = 1500, uncertainty = 40 }
+fusion_temperatures = { deformation = 1300, softening = 1366.6667, flow = 1500 }
 "#;
     let case = plate(&nested(model), "speed = 1", "")
         .replace("temperature = 300\nspeed", "temperature = 1400\nspeed");

@@ -1,6 +1,5 @@
 //! `nearwall materials`: the built-in materials with the source of each number.
 
-use nearwall::input::unknown;
 use nearwall::material::{Library, Material, built_in_toml};
 use nearwall::slag::surface_tension;
 
@@ -36,7 +35,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         return super::print(&library.names().iter().map(line).collect::<String>());
     };
     let Some(material) = library.get(name) else {
-        return Err(unknown(name, "material", &library.names()).into());
+        return Err(library.unknown(name).into());
     };
     if arguments.toml {
         return super::print(&built_in_toml(name).unwrap_or_default());

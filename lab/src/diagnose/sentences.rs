@@ -151,12 +151,20 @@ fn further(diagnosis: &Diagnosis, words: &Words) -> Option<String> {
         open.iter().map(|(p, cause)| format!("{cause} ({})", probability_words(*p))).collect();
     (share > 0.5).then(|| {
         format!(
-            " A further cause is there ({}), but these {} cannot tell which of {}.",
+            " A further cause is there ({}), but these {} cannot tell {}.",
             probability_words(share),
             words.data,
-            causes.join(", ")
+            which(&causes)
         )
     })
+}
+
+/// What data cannot tell of these causes.
+fn which(causes: &[String]) -> String {
+    match causes {
+        [only] => format!("whether the cause is {only}"),
+        several => format!("which of {}", several.join(", ")),
+    }
 }
 
 /// The equations of all closed forms.
@@ -229,11 +237,16 @@ pub(super) fn nothing_found(diagnosis: &Diagnosis, words: &Words, seen: &str) ->
     if is_refuted(&diagnosis.fit) && base >= NAMED {
         return (*carries).to_owned();
     }
+    // The test of the residuals' shape names no cause.
+    let misfit = match diagnosis.fit.base.p_value {
+        Some(p) if p < REFUTED => ", but its misfit is larger than chance allows",
+        _ => "",
+    };
     if base >= NAMED {
-        return format!("In {seen} no deviation from the {subject} is significant.");
+        return format!("In {seen} no deviation from the {subject} is significant{misfit}.");
     }
     format!(
-        "In {seen} no cause is probable enough to be named: the base model as it is has the {}.",
+        "In {seen} no cause is probable enough to be named: the base model as it is has the {}{misfit}.",
         probability_words(base)
     )
 }
@@ -248,12 +261,12 @@ fn cannot_tell(diagnosis: &Diagnosis, words: &Words, base: f64) -> String {
             probability => format!("{name} ({})", probability_words(probability)),
         }
     };
-    let causes = diagnosis.undecided.iter().map(one).collect::<Vec<_>>().join(", ");
+    let causes = which(&diagnosis.undecided.iter().map(one).collect::<Vec<_>>());
     if base <= 1.0 - LISTED {
-        return format!("These {data} speak against the {subject}, but cannot tell which of {causes}.");
+        return format!("These {data} speak against the {subject}, but cannot tell {causes}.");
     }
     format!(
-        "The {subject} probably lacks something ({}), but these {data} cannot tell which of {causes}.",
+        "The {subject} probably lacks something ({}), but these {data} cannot tell {causes}.",
         probability_words(1.0 - base)
     )
 }

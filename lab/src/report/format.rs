@@ -37,6 +37,42 @@ pub fn shown_unit(unit: &str, largest: f64) -> (f64, String) {
     }
 }
 
+/// How times [s] up to the longest one are shown: the seconds of a unit, and its name.
+pub fn time_unit(longest: f64) -> (f64, &'static str) {
+    match longest {
+        seconds if seconds > 5.0 * 3600.0 => (3600.0, "h"),
+        seconds if seconds > 300.0 => (60.0, "min"),
+        _ => (1.0, "s"),
+    }
+}
+
+/// A time [s] in the unit that fits.
+pub fn duration(seconds: f64) -> String {
+    let (length, unit) = time_unit(seconds);
+    format!("{} {unit}", number(seconds / length))
+}
+
+/// A mean with its standard deviation, both to the second digit of the deviation.
+pub fn with_deviation(mean: f64, deviation: f64) -> String {
+    let [mean, deviation] = [mean, deviation].map(|value| number(rounded(value, deviation)));
+    format!("{mean} ± {deviation}")
+}
+
+/// A value and its interval, all to the second digit of half the interval: "0.17" and "0 to 1.5".
+pub fn with_interval(value: f64, [low, high]: [f64; 2]) -> (String, String) {
+    let [value, low, high] = [value, low, high].map(|one| number(rounded(one, 0.5 * (high - low))));
+    (value, format!("{low} to {high}"))
+}
+
+/// A value to the second digit of what it is uncertain by.
+fn rounded(value: f64, uncertain_by: f64) -> f64 {
+    if !uncertain_by.is_finite() || uncertain_by == 0.0 {
+        return value;
+    }
+    let unit = 10f64.powf(uncertain_by.abs().log10().floor() - 1.0);
+    (value / unit).round() * unit
+}
+
 /// A number with its unit; shares (unit `1` or empty) have none.
 pub fn with_unit(value: f64, unit: &str) -> String {
     let (factor, unit) = shown_unit(unit, value);
@@ -124,6 +160,20 @@ mod tests {
         assert_eq!((short.as_str(), long.as_str()), ("5 to 200 µm", "5e-6 to 0.2 m"));
         assert_eq!((with_unit(7.5e-5, "m").as_str(), with_unit(0.4, "J/m2").as_str()), ("75 µm", "0.4 J/m²"));
         assert_eq!((with_unit(0.5, "1").as_str(), span([0.1, 0.5], "1").as_str()), ("0.5", "0.1 to 0.5"));
+    }
+
+    #[test]
+    fn times_have_the_unit_that_fits() {
+        assert_eq!([0.02, 300.0, 3600.0, 86_400.0].map(duration), ["0.02 s", "300 s", "60 min", "24 h"]);
+    }
+
+    #[test]
+    fn a_mean_has_no_more_digits_than_its_deviation() {
+        let pairs = [(3.4641, 0.7834), (63.52, 21.9), (6.988e-4, 0.0016), (1.0, 0.0), (1234.0, 210.0)];
+        let texts = pairs.map(|(mean, deviation)| with_deviation(mean, deviation));
+        let (value, interval) = with_interval(0.1721, [8.4e-7, 1.512]);
+        assert_eq!((value.as_str(), interval.as_str()), ("0.17", "0 to 1.51"));
+        assert_eq!(texts, ["3.46 ± 0.78", "64 ± 22", "7e-4 ± 0.0016", "1 ± 0", "1230 ± 210"]);
     }
 
     #[test]

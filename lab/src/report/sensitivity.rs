@@ -3,7 +3,7 @@
 use super::chart::{TornadoRow, tornado};
 use super::format::{shown_unit, span, with_unit};
 use super::{Figure, Page, RowStatus, Table, number, percent};
-use crate::rig::sensitivity::{NumberEffect, NumberScale, Quality, Sensitivity, WallEffect};
+use crate::rig::sensitivity::{NumberEffect, NumberScale, Quality, Sensitivity};
 
 /// Numbers in a figure and in the table.
 const SHOWN_NUMBERS: usize = 15;
@@ -105,26 +105,27 @@ fn named(effect: &NumberEffect) -> String {
     format!("{}: {range}", effect.name)
 }
 
-/// What a wall captures at both ends of the ranges, the largest change first.
+/// What a wall captures at both ends of the ranges of the numbers that change it most, in the order of the table.
 fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
-    let of_wall =
-        |effect: &NumberEffect| Some((named(effect), effect.walls.get(wall)?.clone(), ends(effect)));
-    let mut effects: Vec<(String, WallEffect, [String; 2])> =
-        found.numbers.iter().filter_map(of_wall).collect();
-    let base = effects.first()?.1.clone();
-    effects.sort_by(|(_, a, _), (_, b, _)| b.change.total_cmp(&a.change));
-    let least = LEAST_SHOWN * effects.first().map_or(0.0, |(_, largest, _)| largest.change);
-    effects.retain(|(_, effect, _)| effect.change > 0.0 && effect.change >= least);
-    effects.truncate(SHOWN_NUMBERS);
-    let row = |(name, effect, ends): (String, WallEffect, [String; 2])| {
-        let results = [effect.captured_low, effect.captured_high];
+    let of_wall = |effect: &'_ NumberEffect| effect.walls.get(wall).map(|on_wall| on_wall.change);
+    let mut changes: Vec<f64> = found.numbers.iter().filter_map(of_wall).collect();
+    changes.sort_by(|a, b| b.total_cmp(a));
+    let largest = *changes.first()?;
+    let least = changes.get(SHOWN_NUMBERS - 1).copied().unwrap_or(0.0).max(LEAST_SHOWN * largest);
+    let base = found.numbers.first()?.walls.get(wall)?;
+    let row = |effect: &NumberEffect| {
+        let on_wall = effect.walls.get(wall).filter(|one| one.change > 0.0 && one.change >= least)?;
+        let results = [on_wall.captured_low, on_wall.captured_high];
+        let ends = ends(effect);
         let said = |side: usize| format!("{}: {} captured", ends[side], percent(results[side]));
-        TornadoRow { name, results: results.map(|share| 100.0 * share), ends: [said(0), said(1)] }
+        let ends = [said(0), said(1)];
+        Some(TornadoRow { name: named(effect), results: results.map(|share| 100.0 * share), ends })
     };
+    let rows = found.numbers.iter().filter_map(row).take(SHOWN_NUMBERS).collect();
     let title = format!("Captured at {}", base.wall);
-    let caption = "Share of the injected mass; the largest change comes first.";
+    let caption = "Share of the injected mass; the numbers that change it most, in the order of the table.";
     let texts = [&format!("sensitivity-{wall}"), &title, caption, "captured [% of the injected mass]"];
-    tornado(texts, 100.0 * base.captured, effects.into_iter().map(row).collect())
+    tornado(texts, 100.0 * base.captured, rows)
 }
 
 /// Both ends of a number in words.

@@ -19,6 +19,7 @@ use super::number_name::{name_of, unit_of_key};
 use crate::simulate::{DistributionKey, number_of};
 use nearwall::law::QuantityKind;
 use nearwall::material::BUILT_IN_TEXT;
+use nearwall::material::SHEET_BAND;
 use nearwall::slag::ash_fusion;
 
 /// The kinds of a case's own numbers, by key; those of the model state theirs.
@@ -718,6 +719,7 @@ fn quality_range(key: &str, value: f64, assumed: bool) -> (Move, String) {
     let in_exponent = parts.last() == Some(&"activation_energy");
     let factor = if in_exponent { 1.1 } else { either(if well_known { 1.25 } else { 2.0 }, 1.1) };
     match kind_of(key) {
+        _ if parts.last() == Some(&"fusion_temperatures") => by_difference(SHEET_BAND, "K"),
         QuantityKind::Temperature if value > 100.0 => by_difference(either(50.0, 10.0), "K"),
         QuantityKind::Angle => by_difference(either(20.0, 5.0), "degrees"),
         QuantityKind::Share if value > 0.0 && value < 1.0 => {

@@ -43,7 +43,7 @@ const MARKER_SHAPES: [MarkerShape; 7] = [
 /// Gaps of lines, short enough to be seen in the legend: two each of three walls of a case.
 const DASHES: [&str; 6] = ["", "5 2", "7 2 2 2", "2 2", "4 1", "6 2 2 2 2 2"];
 /// Letters that fit side by side under an x axis.
-const WORDS_LETTERS: usize = 60;
+const WORDS_LETTERS: usize = 46;
 
 /// Length of each point's error bar below and above it.
 pub type ErrorBars = Vec<(f64, f64)>;
@@ -246,10 +246,14 @@ impl Chart {
             sums.iter_mut().zip(*heights).for_each(|(sum, height)| *sum += height);
             tops.push((name, colour, sums.clone()));
         }
-        // The highest first, behind the others.
-        tops.into_iter()
+        // The highest first, behind the others; the legend names them in their order.
+        let mut chart = tops
+            .into_iter()
             .rev()
-            .fold(self, |chart, (name, colour, tops)| chart.area(name, colour, edges, &tops))
+            .fold(self, |chart, (_, colour, tops)| chart.area("", colour, edges, &tops));
+        let entry = |(name, colour, _): &(&str, &str, &[f64])| legend_entry(name, colour, LegendShape::Rect);
+        chart.legend.extend(series.iter().filter_map(entry));
+        chart
     }
 
     /// Adds bars between `edges`.
@@ -385,9 +389,11 @@ mod tests {
         assert_eq!(first, second);
         assert!(first.svg.starts_with("<svg xmlns"), "{}", first.svg);
         assert!(
-            first.svg.contains("viewBox=\"0 0 620 388\"") && first.svg.contains("aria-label=\"t &lt; u\"")
+            first.svg.contains("viewBox=\"0 0 480 328\"") && first.svg.contains("aria-label=\"t &lt; u\"")
         );
         assert!(first.svg.contains("id=\"one-clip-0\"") && !first.svg.contains("kuva-clip"));
+        // The page colours what is named.
+        assert!(first.svg.contains("\"black\"") && !first.svg.contains("#000000"), "{}", first.svg);
         assert!(first.svg.contains("x [m]") && first.svg.contains("here"));
     }
 
@@ -411,7 +417,7 @@ mod tests {
         let words = ["Ann".to_owned(), "Bob".to_owned()];
         let chart = Chart::new("t", "who", "y [1]").words(&words).cloud("rows", &[[1.0, 2.0], [2.0, 3.0]]);
         let svg = chart.figure("w", "").svg;
-        assert!(svg.contains(">Ann<") && svg.contains(">Bob<") && svg.contains(CLOUD), "{svg}");
+        assert!(svg.contains(">Ann<") && svg.contains(">Bob<") && svg.contains("darkgray"), "{svg}");
     }
 
     #[test]

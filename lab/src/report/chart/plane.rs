@@ -19,6 +19,12 @@ const TICK_SPACE: [f64; 2] = [50.0, 40.0];
 /// Least and largest radius of a dot, and the width of its outline [px].
 const DOT_RADIUS: [f64; 2] = [0.7, 1.9];
 const DOT_OUTLINE: f64 = 0.3;
+/// Colour of outlines of dots, and of dots without a scale: dots lie on coloured cells, and a page leaves numbered
+/// colours as they are.
+const DOT_COLOUR: &str = "#000000";
+/// Width of a letter of a number at a tick, and from the numbers of the upright axis to its label [px].
+const LETTER: f64 = 7.7;
+const LABEL_GAP: f64 = 10.0;
 /// The label of an axis and its ticks: the share of its length, and the number, which minor ticks have not.
 pub(in crate::report) type LabelledAxis = (String, Vec<(f64, String)>);
 
@@ -29,12 +35,14 @@ pub(in crate::report) struct PlanePicture<'a> {
     /// What both axes show, and the size of the plot [px].
     ends: [[f64; 2]; 2],
     size: [f64; 2],
+    /// Left end of what is drawn [px]; negative where the numbers of the upright axis are long.
+    left: f64,
     svg: String,
 }
 
 impl<'a> PlanePicture<'a> {
     pub fn new([id, title]: [&'a str; 2], ends: [[f64; 2]; 2], size: [f64; 2]) -> Self {
-        Self { id, title, ends, size, svg: String::new() }
+        Self { id, title, ends, size, left: 0.0, svg: String::new() }
     }
 
     /// Right of the plot and its upper end [px].
@@ -114,7 +122,8 @@ impl<'a> PlanePicture<'a> {
         let crisp = " shape-rendering=\"crispEdges\"";
         let (id, cells) = (self.id, self.svg.replace(crisp, ""));
         self.svg = format!(
-            "<defs><g id=\"{id}-cells\">{cells}</g></defs><use href=\"#{id}-cells\" stroke=\"#222\" stroke-width=\"2\" \
+            "<defs><g id=\"{id}-cells\">{cells}</g></defs><use href=\"#{id}-cells\" stroke=\"black\" \
+             stroke-width=\"2\" \
              stroke-linejoin=\"round\"/><use href=\"#{id}-cells\"{crisp}/>"
         );
     }
@@ -130,7 +139,7 @@ impl<'a> PlanePicture<'a> {
         for (place, value) in sorted {
             let colour = match scale {
                 Some(scale) if value.is_finite() => scale.colour(*value),
-                _ => "black".to_owned(),
+                _ => DOT_COLOUR.to_owned(),
             };
             if paths.last().is_none_or(|(last, _)| *last != colour) {
                 paths.push((colour, String::new()));
@@ -146,7 +155,7 @@ impl<'a> PlanePicture<'a> {
         let width = 2.0 * (0.22 * apart).clamp(DOT_RADIUS[0], DOT_RADIUS[1]);
         self.svg += &format!(
             "<g fill=\"none\" stroke-linecap=\"round\" stroke-width=\"{width:.2}\">\
-             <path stroke=\"black\" stroke-width=\"{:.2}\" d=\"{all}\"/>",
+             <path stroke=\"{DOT_COLOUR}\" stroke-width=\"{:.2}\" d=\"{all}\"/>",
             width + 2.0 * DOT_OUTLINE
         );
         for (colour, path) in paths {
@@ -188,7 +197,10 @@ impl<'a> PlanePicture<'a> {
             svg += &text_at([LEFT - 8.0, y + 4.0], "end", text);
         }
         svg += &text_at([LEFT + 0.5 * width, bottom + 38.0], "middle", &across.0);
-        self.svg += &(svg + &upright([13.0, TOP + 0.5 * height], &up.0));
+        let longest = up.1.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
+        let x = (LEFT - 8.0 - LETTER * longest as f64 - LABEL_GAP + 4.0).min(13.0);
+        self.left = (x - 13.0).min(self.left);
+        self.svg += &(svg + &upright([x, TOP + 0.5 * height], &up.0));
     }
 
     /// Adds a bar of colours of a height [px], the first or a later one beside the plot: a unit
@@ -206,11 +218,13 @@ impl<'a> PlanePicture<'a> {
     /// The figure, so wide and so high [px]; the plot with what is beside it is in the middle of a
     /// drawing that is wider.
     pub fn figure(self, caption: &str, [width, height]: [f64; 2], used: f64) -> Figure {
+        let centred = -0.5 * (width - used).max(0.0);
+        let left = centred.min(self.left) + 0.0;
+        let width = centred + width - left;
         let svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{:.1} 0 {width:.1} {height:.1}\" role=\"img\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left:.1} 0 {width:.1} {height:.1}\" role=\"img\" \
              aria-label=\"{}\" font-family=\"DejaVu Sans, Verdana, Liberation Sans, Arial, \
              sans-serif\" font-size=\"12\" fill=\"black\">{}</svg>",
-            -0.5 * (width - used).max(0.0) + 0.0,
             escaped(self.title),
             self.svg
         );
@@ -238,12 +252,13 @@ fn upright([x, y]: [f64; 2], text: &str) -> String {
 /// An entry of a legend: a swatch, and lines of text beside it [px].
 pub(in crate::report) fn swatch(fill: &str, [x, y]: [f64; 2], lines: &[&str]) -> String {
     let line = |(place, text): (usize, &&str)| {
-        let y = y + 10.0 + 13.0 * place as f64;
-        format!("<text x=\"{}\" y=\"{y}\" font-size=\"10\">{text}</text>", x + 18.0)
+        let y = y + 10.0 + 14.0 * place as f64;
+        format!("<text x=\"{}\" y=\"{y}\">{text}</text>", x + 18.0)
     };
     let lines: String = lines.iter().enumerate().map(line).collect();
     format!(
-        "<rect x=\"{x}\" y=\"{y}\" width=\"12\" height=\"12\" fill=\"{fill}\" stroke=\"black\" stroke-width=\".5\"/>{lines}"
+        "<rect x=\"{x}\" y=\"{y}\" width=\"12\" height=\"12\" fill=\"{fill}\" stroke=\"black\" \
+         stroke-width=\".5\"/>{lines}"
     )
 }
 

@@ -1,4 +1,4 @@
-//! Tornado: what a result becomes at both ends of the range of each quantity, the largest change first.
+//! Tornado: what a result becomes at both ends of the range of each quantity.
 
 use std::fmt::Write;
 
@@ -32,9 +32,6 @@ pub(in crate::report) fn tornado(
     mut rows: Vec<TornadoRow>,
 ) -> Option<Figure> {
     rows.retain(|row| all_drawable(row.results).is_some());
-    let change =
-        |row: &TornadoRow| row.results.iter().map(|result| (result - middle).abs()).fold(0.0, f64::max);
-    rows.sort_by(|a, b| change(b).total_cmp(&change(a)));
     let all = rows.iter().flat_map(|row| row.results).chain([middle]);
     let [low, high] =
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
@@ -47,7 +44,7 @@ pub(in crate::report) fn tornado(
     let bottom = HEAD + ROW * rows.len() as f64;
     let mut svg = legend() + &axis([low, high], bottom, label);
     let x = at(middle);
-    svg += &format!("<path d=\"M{x:.1} {HEAD}V{bottom:.1}\" stroke=\"#444444\" stroke-dasharray=\"4 3\"/>");
+    svg += &format!("<path d=\"M{x:.1} {HEAD}V{bottom:.1}\" stroke=\"dimgray\" stroke-dasharray=\"4 3\"/>");
     for (place, row) in rows.iter().enumerate() {
         svg += &bars(row, HEAD + ROW * place as f64, at(middle), &at);
     }
@@ -84,7 +81,7 @@ fn axis([low, high]: [f64; 2], bottom: f64, label: &str) -> String {
     for (share, number) in ticks(low, high, 6) {
         let x = MARGIN + (WIDTH - 2.0 * MARGIN) * share;
         // Writing to a text cannot fail.
-        let _ = write!(svg, "<path d=\"M{x:.1} {HEAD}V{:.1}\" stroke=\"#dddddd\"/>", bottom + 4.0);
+        let _ = write!(svg, "<path d=\"M{x:.1} {HEAD}V{:.1}\" stroke=\"lightgray\"/>", bottom + 4.0);
         svg += &text_at([x, bottom + 18.0], "middle", &number);
     }
     svg + &text_at([0.5 * WIDTH, bottom + 38.0], "middle", label)
@@ -121,9 +118,9 @@ mod tests {
 
     /// By hand: 0 to 100 on 444 px from 18; 25 is at 129, 50 at 240, 100 at 462.
     #[test]
-    fn the_widest_bar_comes_first_and_ends_where_its_result_is() {
+    fn rows_keep_their_order_and_bars_end_where_their_results_are() {
         let rows =
-            vec![row("narrow", [50.0, 60.0]), row("wi<de", [0.0, 100.0]), row("lost", [f64::NAN, 1.0])];
+            vec![row("wi<de", [0.0, 100.0]), row("lost", [f64::NAN, 1.0]), row("narrow", [50.0, 60.0])];
         let svg = tornado(["id", "t", "c", "captured [%]"], 50.0, rows).unwrap().svg;
         assert!(
             svg.find("wi&lt;de").unwrap() < svg.find("narrow").unwrap() && !svg.contains("lost"),

@@ -1,7 +1,7 @@
 //! The result of a comparison of models: as a page and as text.
 
 use super::chart::{Chart, Figure};
-use super::format::number;
+use super::format::{number, with_interval};
 use super::page::{Page, Table};
 use crate::diagnose::comparison::{Comparison, Difference, Interval, ModelErrors, ModelResult};
 
@@ -161,7 +161,7 @@ fn table<'a>(comparison: &'a Comparison, measure: &Shown) -> Option<Table> {
         let (difference, judgement) = match place {
             0 => (String::new(), "best"),
             _ => (
-                with_interval(interval.behind_best.value, interval.behind_best.ci95),
+                in_interval(interval.behind_best.value, interval.behind_best.ci95),
                 judgement(&interval.behind_best),
             ),
         };
@@ -169,7 +169,7 @@ fn table<'a>(comparison: &'a Comparison, measure: &Shown) -> Option<Table> {
         vec![
             place,
             model.model.clone(),
-            with_interval(interval.value, interval.ci95),
+            in_interval(interval.value, interval.ci95),
             difference,
             judgement.to_owned(),
         ]
@@ -188,9 +188,10 @@ fn judgement(difference: &Difference) -> &'static str {
     }
 }
 
-fn with_interval(value: f64, ci95: Option<[f64; 2]>) -> String {
-    let interval = ci95.map(|[low, high]| format!(" ({} to {})", number(low), number(high)));
-    format!("{}{}", number(value), interval.unwrap_or_default())
+fn in_interval(value: f64, ci95: Option<[f64; 2]>) -> String {
+    let Some(ends) = ci95 else { return number(value) };
+    let (value, interval) = with_interval(value, ends);
+    format!("{value} ({interval})")
 }
 
 /// A measure of all models with its intervals; `None` where nothing was measured.

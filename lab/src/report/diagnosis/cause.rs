@@ -1,7 +1,7 @@
 //! One cause: its parameters, its effect on the residuals, and the alternatives.
 
 use super::super::chart::Figure;
-use super::super::format::{by_chance, listed, number, whole_percent};
+use super::super::format::{by_chance, listed, number, whole_percent, with_interval};
 use super::super::page::{Page, Table};
 use super::axis::ColumnAxis;
 use super::plot::{BASE, EXTENDED, identifier, residuals, title};
@@ -110,8 +110,8 @@ pub(in crate::report) fn parameters(finding: &Finding) -> Table {
         parameter.map_or("", |parameter| parameter.about)
     };
     let row = |(name, estimate): (&&'static str, &Estimate)| {
-        let interval = format!("{} to {}", number(estimate.low), number(estimate.high));
-        vec![(*name).into(), about(name).into(), number(estimate.value), interval, estimate.unit.into()]
+        let (value, interval) = with_interval(estimate.value, [estimate.low, estimate.high]);
+        vec![(*name).into(), about(name).into(), value, interval, estimate.unit.into()]
     };
     let header = ["parameter", "what it is", "value", "95 % interval", "unit"];
     Table::new("", 2, &header, finding.parameters.iter().map(row).collect())

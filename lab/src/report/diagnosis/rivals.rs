@@ -71,6 +71,11 @@ fn sentence(rival: &Rival, diagnosis: &Diagnosis) -> String {
     text + &format!("; its probability is {}.", probability(rival.probability))
 }
 
+/// The title of the box with these causes.
+pub(super) fn undecided_title(causes: &[String]) -> &'static str {
+    if causes.len() == 1 { "A cause that may be missing" } else { "One of several causes" }
+}
+
 /// Causes of which one is significant, if the data cannot tell which.
 pub(in crate::report) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
     let causes = &diagnosis.undecided;
@@ -78,14 +83,19 @@ pub(in crate::report) fn add_undecided(page: &mut Page, diagnosis: &Diagnosis) {
         return;
     }
     let names: Vec<String> = causes.iter().map(|cause| cause_title(cause)).collect();
-    let first = format!(
-        "The data cannot tell which of {} the model lacks. None is in the extended model.",
-        listed(&names, "or")
-    );
+    let first = match names.as_slice() {
+        [only] => {
+            format!("The data cannot tell whether the model lacks {only}. It is not in the extended model.")
+        }
+        several => format!(
+            "The data cannot tell which of {} the model lacks. None is in the extended model.",
+            listed(several, "or")
+        ),
+    };
     let lines = vec![first, to_separate(causes)];
     page.callout(Callout {
         status: RowStatus::Open,
-        title: "One of several causes".into(),
+        title: undecided_title(causes).into(),
         lines,
         table: Some(candidates(causes)),
     });
@@ -118,6 +128,9 @@ pub(in crate::report) fn to_separate(causes: &[String]) -> String {
     let mut all: Vec<&str> = causes.iter().flat_map(|cause| inputs(cause)).collect();
     all.sort_unstable();
     all.dedup();
+    if let [_] = causes {
+        return format!("Measure over a wider range of {}, or with smaller errors.", listed(&all, "and"));
+    }
     let phrase = |input: &str| {
         let depends: Vec<String> = causes
             .iter()

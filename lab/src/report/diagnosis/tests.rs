@@ -146,6 +146,12 @@ fn averages_far_from_the_model_are_not_called_noise() {
     assert!(
         !text.contains("No column stands out") && !text.contains("Every effect of the library was examined")
     );
+    diagnosis.undecided.truncate(1);
+    let text = self::text(&diagnosis, EXTENDED);
+    shows(
+        &text,
+        &["A cause that may be missing", "cannot tell whether the model lacks sliding-to-rolling. It is not"],
+    );
 }
 
 /// Points beyond three stated errors refute a model even where no test was made.

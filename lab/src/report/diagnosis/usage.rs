@@ -3,6 +3,7 @@
 use super::super::format::{listed, with_unit};
 use super::super::page::{Page, Table};
 use super::plot::title;
+use super::rivals::undecided_title;
 use super::{cause_title, fit};
 use crate::diagnose::{Diagnosis, Finding, FittedRows, NextMeasurement, NotExamined};
 use nearwall::effect::EFFECTS;
@@ -31,7 +32,8 @@ pub(super) fn add_next(page: &mut Page, diagnosis: &Diagnosis) {
     page.heading("What to measure next");
     let mut asked = false;
     if !diagnosis.undecided.is_empty() {
-        page.text("See \"One of several causes\" at the top for what tells them apart.");
+        let title = undecided_title(&diagnosis.undecided);
+        page.text(format!("See \"{title}\" at the top for what would decide it."));
         asked = true;
     }
     for measure in &diagnosis.measure_next {

@@ -11,8 +11,8 @@ use crate::report::format::{number, shown_unit};
 use nearwall::impact::Regime;
 
 /// Width of the drawing, and size of its plot [px].
-const PANEL_WIDTH: f64 = 620.0;
-const PANEL_PLOT: [f64; 2] = [430.0, 330.0];
+const PANEL_WIDTH: f64 = 480.0;
+const PANEL_PLOT: [f64; 2] = [320.0, 260.0];
 /// Height of the legend below the axis, and of an entry of that beside the plot [px].
 const LEGEND_BELOW: f64 = 22.0;
 const LEGEND_ENTRY: f64 = 36.0;
@@ -86,14 +86,23 @@ impl<'a> Panel<'a> {
         if let Some(scale) = scale {
             picture.bar(scale, "", 0, PANEL_PLOT[1]);
         }
-        let [mut x, bottom] = picture.below();
-        let marks = self.marks();
-        for (fill, text) in &marks {
-            picture.add(&swatch(fill, [x, bottom + 4.0], &[text]));
-            x += 36.0 + 6.5 * text.len() as f64;
-        }
-        let height = bottom + if marks.is_empty() { 0.0 } else { LEGEND_BELOW };
+        let height = self.add_marks(&mut picture);
         picture.figure(self.caption, [PANEL_WIDTH, height], PANEL_WIDTH)
+    }
+
+    /// Adds the marks that occur and their meaning below the axis; where all ends [px].
+    fn add_marks(&self, picture: &mut PlanePicture<'_>) -> f64 {
+        let [left, mut bottom] = picture.below();
+        let mut x = PANEL_WIDTH;
+        for (fill, text) in self.marks() {
+            let width = 36.0 + 7.3 * text.len() as f64;
+            if x + width > PANEL_WIDTH {
+                (x, bottom) = (left, bottom + LEGEND_BELOW);
+            }
+            picture.add(&swatch(&fill, [x, bottom + 4.0 - LEGEND_BELOW], &[text]));
+            x += width;
+        }
+        bottom
     }
 
     fn add_names(&self, picture: &mut PlanePicture) {

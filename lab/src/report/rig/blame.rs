@@ -1,6 +1,6 @@
 //! Whose fault the misfit is.
 
-use super::super::format::{number, whole_percent};
+use super::super::format::{number, whole_percent, with_interval};
 use super::super::page::{Page, Table};
 use crate::diagnose::rig::{Blame, RigDiagnosis};
 
@@ -35,13 +35,14 @@ fn row(one: &Blame) -> Vec<String> {
         cells.extend([(); 3].map(|()| String::new()));
         return cells;
     };
+    let (value, interval) = with_interval(found.value, [found.low, found.high]);
     let assumed = if found.stated { "" } else { " (assumed)" };
     cells.extend([
         found.measure.to_owned(),
         whole_percent(one.share),
         format!("{} {}", number(found.from), found.unit),
         format!("{}{assumed}", number(found.error)),
-        format!("{} ({} to {})", number(found.value), number(found.low), number(found.high)),
+        format!("{value} ({interval})"),
     ]);
     cells
 }

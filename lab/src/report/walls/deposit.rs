@@ -2,6 +2,7 @@
 
 use super::RunComparison;
 use super::captured::thinned;
+use crate::report::format::{duration, number, time_unit};
 use crate::report::{Chart, Figure};
 use crate::results::History;
 use crate::results::openfoam::deposit::{DepositState, value};
@@ -21,6 +22,10 @@ struct OverTime {
     always: bool,
     caption: &'static str,
 }
+
+/// Places of the surface's temperature and of the heat flux in [`OVER_TIME`].
+const TEMPERATURE: usize = 2;
+const HEAT_FLUX: usize = 3;
 
 const OVER_TIME: [OverTime; 4] = [
     OverTime {
@@ -76,13 +81,14 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
             format!("Deposit on {}, {label}", wall.wall)
         }
     };
+    let clock = time_unit(comparison.time);
     let mut figures: Vec<Figure> =
-        walls.iter().enumerate().map(|(index, wall)| masses(index, &titled(wall), wall.1)).collect();
+        walls.iter().enumerate().map(|(index, wall)| masses(index, &titled(wall), wall.1, clock)).collect();
     if walls.is_empty() {
         return figures;
     }
     let over_time = |title: &str, y_label: &str, factor: f64, [mean, most]: [&str; 2]| {
-        let chart = Chart::new(title, "time [s]", y_label);
+        let chart = Chart::new(title, &format!("time [{}]", clock.1), y_label);
         walls.iter().fold(chart, |chart, (label, wall)| {
             let name = if single { wall.wall.clone() } else { format!("{label}: {}", wall.wall) };
             let colour = comparison.colour(label, &wall.wall);
@@ -92,8 +98,9 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
             } else {
                 2 * comparison.walls.iter().position(|one| *one == wall.wall).unwrap_or(0)
             };
-            let scaled =
-                |column: &str| line(wall, column).into_iter().map(|[time, value]| [time, factor * value]);
+            let scaled = |column: &str| {
+                line(wall, column, clock).into_iter().map(|[time, value]| [time, factor * value])
+            };
             chart
                 .dashed(colour, dash)
                 .line(&format!("{name}, mean"), &scaled(mean).collect::<Vec<_>>())
@@ -108,6 +115,31 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
         over_time(drawn.title, drawn.y_label, drawn.factor, drawn.columns).figure(drawn.id, drawn.caption)
     }));
     figures
+}
+
+/// How the surface and the heat through each cooled wall of a single run change, in a sentence.
+pub(super) fn heat_words(comparison: &RunComparison<'_>) -> Option<String> {
+    let [run] = comparison.runs else { return None };
+    let of_wall = |wall: &History<DepositState>| {
+        let [(_, first), .., (end, last)] = wall.rows.as_slice() else { return None };
+        let at = |state: &DepositState, place: usize| value(state, OVER_TIME[place].columns[0]);
+        let [temperatures, fluxes] =
+            [TEMPERATURE, HEAT_FLUX].map(|place| [first, last].map(|state| at(state, place)));
+        let known =
+            fluxes.iter().all(|flux| flux.is_finite()) && changes(wall, OVER_TIME[HEAT_FLUX].columns[0]);
+        known.then(|| {
+            let [[cold, hot], [before, after]] = [temperatures.map(f64::round), fluxes.map(|flux| 1e-3 * flux)];
+            let [before, after] = [before, after].map(|flux| number((10.0 * flux).round() / 10.0));
+            format!(
+                "On {} the surface that impacts meet goes from {cold} to {hot} K over {}, and the heat through the \
+                 wall from {before} to {after} kW/m² (means over the wall).",
+                wall.wall,
+                duration(*end)
+            )
+        })
+    };
+    let sentences: Vec<String> = run.deposits.iter().filter_map(of_wall).collect();
+    (!sentences.is_empty()).then(|| sentences.join(" "))
 }
 
 /// Whether a column is there and changes over time.
@@ -125,15 +157,18 @@ fn is_something(wall: &History<DepositState>) -> bool {
     })
 }
 
+/// The seconds of a unit of time, and its name.
+type Clock = (f64, &'static str);
+
 /// A column over time.
-fn line(wall: &History<DepositState>, column: &str) -> Vec<[f64; 2]> {
-    thinned(&wall.rows).map(|(time, state)| [*time, value(state, column)]).collect()
+fn line(wall: &History<DepositState>, column: &str, clock: Clock) -> Vec<[f64; 2]> {
+    thinned(&wall.rows).map(|(time, state)| [*time / clock.0, value(state, column)]).collect()
 }
 
-fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
-    let mut chart = Chart::new(title, "time [s]", "mass [kg]");
+fn masses(index: usize, title: &str, wall: &History<DepositState>, clock: Clock) -> Figure {
+    let mut chart = Chart::new(title, &format!("time [{}]", clock.1), "mass [kg]");
     for (name, column) in [("molten", "molten_kg"), ("powder", "powder_kg")] {
-        chart = chart.line(name, &line(wall, column));
+        chart = chart.line(name, &line(wall, column, clock));
     }
     let others = [
         ("frozen", "frozen_kg"),
@@ -143,7 +178,7 @@ fn masses(index: usize, title: &str, wall: &History<DepositState>) -> Figure {
         ("condensed from the gas", "condensed_kg"),
     ];
     for (name, column) in others {
-        let points = line(wall, column);
+        let points = line(wall, column, clock);
         if points.iter().any(|[_, mass]| *mass > 0.0) {
             chart = chart.line(name, &points);
         }

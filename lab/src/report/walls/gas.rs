@@ -2,6 +2,7 @@
 
 use super::{RunComparison, number};
 use crate::report::chart::{COLUMN_WIDTH, ColourScale, Palette, PlanePicture};
+use crate::report::format::duration;
 use crate::report::{Figure, Page};
 use crate::results::gas::{GasCut, ParcelQuantity};
 use crate::results::{RunResults, extent, range};
@@ -9,7 +10,7 @@ use crate::results::{RunResults, extent, range};
 /// Most parcels that are drawn.
 const MOST_DOTS: usize = 5000;
 /// Largest width and height of the plot, and the least of either [px].
-const MOST: [f64; 2] = [400.0, 600.0];
+const MOST: [f64; 2] = [300.0, 450.0];
 const LEAST_SIDE: f64 = 24.0;
 /// Least and largest height of the bars of colours, and least size of the drawing [px].
 const BAR_HEIGHT: [f64; 2] = [150.0, 260.0];
@@ -92,8 +93,11 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
 /// Time, plane, and which parcels are shown; `drawn` are the numbers of cells and of parcels in the
 /// slab, and of parcels a dot.
 fn caption(run: &RunResults, gas: &GasCut, [cells, near, every]: [usize; 3]) -> String {
-    let time = number(gas.time);
-    let when = if run.steady { format!("Iteration {time}") } else { format!("Time {time} s") };
+    let when = if run.steady {
+        format!("Iteration {}", number(gas.time))
+    } else {
+        format!("Time {}", duration(gas.time))
+    };
     let mut words = vec![match gas.slab() {
         None => format!(
             "{when}. The mesh is one cell thick and seen along {}.",

@@ -18,6 +18,7 @@ mod surfaces;
 mod sweep;
 mod verdict;
 
+use super::format::{duration, with_deviation};
 use super::{Chart, Figure, Page, Table, number, percent};
 use crate::results::standalone::Run;
 use crate::results::{Moments, RunResults, WallModel, WallTotals, common_time};
@@ -130,10 +131,10 @@ fn add_method(page: &mut Page, case: &Case) {
     ));
     if let Some(deposit) = &case.deposit {
         page.text(format!(
-            "Particles are released evenly over {} s. In each of {} steps they meet the walls as they were at its \
+            "Particles are released evenly over {}. In each of {} steps they meet the walls as they were at its \
                 beginning; at its end the captured ones are added, and the carbon in the powder burns by the law of \
                 the case at the temperature of the wall. deposit.csv has every wall, bin and time.",
-            number(deposit.duration),
+            duration(deposit.duration),
             deposit.steps
         ));
     }
@@ -293,8 +294,7 @@ impl<'a> RunComparison<'a> {
 
     /// The time of the comparison in words.
     fn when(&self) -> String {
-        let time = number(self.time);
-        if self.is_steady() { format!("iteration {time}") } else { format!("{time} s") }
+        if self.is_steady() { format!("iteration {}", number(self.time)) } else { duration(self.time) }
     }
 
     /// What sums up to the time of the comparison cover, in words.
@@ -302,7 +302,7 @@ impl<'a> RunComparison<'a> {
         if self.is_steady() {
             format!("The solve of iteration {}", number(self.time))
         } else {
-            format!("From the start to {} s", number(self.time))
+            format!("From the start to {}", duration(self.time))
         }
     }
 
@@ -435,8 +435,7 @@ fn spread(moments: &Moments) -> String {
     if !deviation.is_finite() {
         return number(moments.mean);
     }
-    let unit = if deviation == 0.0 { 1.0 } else { 10f64.powf(deviation.log10().floor() - 1.0) };
-    format!("{} ± {}", number(moments.mean), number((deviation / unit).round() * unit))
+    with_deviation(moments.mean, deviation)
 }
 
 /// The names of the cases, with the cloud where one case has several.

@@ -9,7 +9,7 @@ use super::surfaces::scale_ends;
 use super::{RunComparison, number};
 use crate::report::Figure;
 use crate::report::chart::{COLUMN_WIDTH, ColourScale, PlanePicture, text_at};
-use crate::report::format::with_unit;
+use crate::report::format::{duration, with_unit};
 use crate::results::surface::{SurfaceQuantity, WallFace, WallSurface};
 use crate::results::{MapCell, RunResults, extent};
 
@@ -18,8 +18,8 @@ const VIEW: [f64; 3] = [-0.55, 0.65, -0.52];
 /// Most faces that are drawn.
 const MOST_FACES: usize = 8000;
 /// Largest width and height of the plot, and least size of the drawing [px].
-const MOST: [f64; 2] = [560.0, 420.0];
-const LEAST: [f64; 2] = [520.0, 220.0];
+const MOST: [f64; 2] = [330.0, 300.0];
+const LEAST: [f64; 2] = [480.0, 220.0];
 /// Length of the arrows that show the axes, as a share of the picture's extent [1].
 const ARROW: f64 = 0.08;
 
@@ -83,9 +83,9 @@ fn caption(walls: &[(&WallSurface, (SurfaceQuantity, &Vec<f64>))]) -> String {
         .iter()
         .map(|(wall, (_, values))| format!("{} {}", wall.wall, with_unit(wall.integral(values), "kg")));
     format!(
-        "Seen from outside through the walls in front, at {} s; the walls extend over {} m along x, y and z. On them: \
+        "Seen from outside through the walls in front, at {}; the walls extend over {} m along x, y and z. On them: \
             {}.",
-        number(walls[0].0.time),
+        duration(walls[0].0.time),
         size.join(" × "),
         masses.collect::<Vec<_>>().join(", ")
     )
@@ -126,7 +126,7 @@ impl View {
             let [right, up] = self.plane(&axis).map(|part| length * part);
             let [x, y] = [left - 20.0, below - 10.0];
             let text = text_at([x + 1.35 * right, y - 1.35 * up + 4.0], "middle", name);
-            format!("<path stroke=\"#222\" d=\"M{x:.1} {y:.1}l{right:.1} {:.1}\"/>{text}", -up)
+            format!("<path stroke=\"black\" d=\"M{x:.1} {y:.1}l{right:.1} {:.1}\"/>{text}", -up)
         };
         [(Vector3::x(), "x"), (Vector3::y(), "y"), (Vector3::z(), "z")].into_iter().map(arrow).collect()
     }

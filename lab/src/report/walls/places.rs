@@ -14,8 +14,8 @@ const AXIS_BINS: usize = 40;
 const POINTS: usize = 300;
 /// Columns and rows of such a map, the size of its plot, and the width of the drawing [px].
 const MAP_CELLS: [usize; 2] = [48, 32];
-const MAP_SIZE: [f64; 2] = [430.0, 290.0];
-const CAPTURE_MAP_WIDTH: f64 = 620.0;
+const MAP_SIZE: [f64; 2] = [330.0, 230.0];
+const CAPTURE_MAP_WIDTH: f64 = 480.0;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.

@@ -44,7 +44,9 @@ pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
             ("rebounds, all hits", |c, run, wall| {
                 Some(c.totals(run, wall)?.e_n.count).filter(|count| *count > 0).map(|count| count.to_string())
             }),
-            ("impact speed, all hits [m/s]", |c, run, wall| Some(spread(&run.arrived(wall, c.time)?.1))),
+            ("resultant impact speed, all hits [m/s]", |c, run, wall| {
+                Some(spread(&run.arrived(wall, c.time)?.1))
+            }),
             ("angle from the surface, all hits [°]", |c, run, wall| {
                 Some(spread(&c.totals(run, wall)?.angle))
             }),

@@ -2,7 +2,7 @@
 
 use super::{RunComparison, identifier, number};
 use crate::report::chart::{ColourScale, PlanePicture, hatching, regime_colour, swatch};
-use crate::report::format::{REGIME_NAMES, with_unit};
+use crate::report::format::{REGIME_NAMES, duration, with_unit};
 use crate::report::{Figure, Page, percent};
 use crate::results::surface::{
     MOST_FACES, PlaneAxis, SurfaceQuantity, Unrolled, Unrolling, WALL_GRID, WallAxis, WallSurface, shapes,
@@ -45,8 +45,7 @@ pub(super) fn add_to(comparison: &RunComparison<'_>, page: &mut Page) {
 }
 
 fn when(run: &RunResults, wall: &WallSurface) -> String {
-    let time = number(wall.time);
-    if run.steady { format!("iteration {time}") } else { format!("{time} s") }
+    if run.steady { format!("iteration {}", number(wall.time)) } else { duration(wall.time) }
 }
 
 /// The maps of a wall, and a sentence for each quantity that is the same everywhere.

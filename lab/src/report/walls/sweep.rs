@@ -2,6 +2,7 @@
 
 use super::places::map_figures;
 use super::{later_captures, number, percent};
+use crate::report::format::with_deviation;
 use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Run, RunTotals};
@@ -18,9 +19,12 @@ struct SweepAxis {
 
 impl SweepAxis {
     fn of(key: &str) -> Self {
-        let words = key.trim_end_matches("_deg").replace("_", " ");
+        let words = match key {
+            "speed" => "speed at release".to_owned(),
+            "angle_deg" => "angle at release".to_owned(),
+            _ => key.replace('_', " "),
+        };
         match sweep_unit(key) {
-            "K" => Self { words, unit: "°C", shown: |value| value - 273.15 },
             "m" => Self { words, unit: "µm", shown: |value| 1e6 * value },
             unit => Self { words, unit, shown: |value| value },
         }
@@ -31,7 +35,7 @@ impl SweepAxis {
         format!("{} [{}]", self.words, self.unit)
     }
 
-    /// The value of a run in words: "temperature = 50 °C".
+    /// The value of a run in words: "temperature = 320 K".
     fn at(&self, run: &Run) -> String {
         let unit = if self.unit == "1" { String::new() } else { format!(" {}", self.unit) };
         format!("{} = {}{unit}", self.words, number(self.value(run)))
@@ -171,7 +175,10 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         format!("{part} ({low} to {high})")
     };
     let label = axis.label();
-    let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| number(merged(run, of).0);
+    let mean = |run: &Run, of: fn(&WallTotals) -> &Moments| {
+        let (mean, error) = merged(run, of);
+        if mean.is_finite() { with_deviation(mean, error) } else { number(mean) }
+    };
     let columns: [TableColumn<'_, Run>; 9] = [
         (&label, &|run| number(axis.value(run))),
         ("first hits", &|run| run.totals.first_hits()[0].to_string()),
@@ -180,8 +187,8 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("captured at the end", &|run| percent(captured_mass(&run.totals))),
         ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
         ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
-        ("speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
+        ("resultant impact speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
         ("mass balance", &|run| number(run.totals.ends.balance_error())),
     ];
-    Table::of_items("", 0, runs, &columns)
+    Table::of_items("Means ± standard error.", 0, runs, &columns)
 }

@@ -1,6 +1,6 @@
 //! The title and the sentences at the top of the page.
 
-use super::{RunComparison, RunResults, WallModel, number, percent};
+use super::{RunComparison, RunResults, WallModel, deposit, number, percent};
 use crate::results::{ByConversion, share, wilson};
 use nearwall::impact::Regime;
 use std::iter;
@@ -29,10 +29,15 @@ pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
     format!("{models}. {at} at {}.", comparison.when())
 }
 
-/// At most four sentences, however many runs there are.
+/// A few sentences, however many runs there are.
 pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
     if let [run] = comparison.runs {
-        let sentences = [busiest(comparison, run), reason(comparison, run), certainty(comparison, run)];
+        let sentences = [
+            busiest(comparison, run),
+            reason(comparison, run),
+            deposit::heat_words(comparison),
+            certainty(comparison, run),
+        ];
         return iter::once(single(comparison, run)).chain(sentences.into_iter().flatten()).collect();
     }
     let mut lines = several(comparison);

@@ -283,7 +283,7 @@ impl RunTotals {
     /// The results for the page.
     pub fn results(&self, case: &Case) -> RunResults {
         let surface = |index: usize| &case.surfaces[index];
-        let end = case.time_limit;
+        let end = case.deposit.map_or(case.time_limit, |deposit| deposit.duration);
         let injected = self.ends.injected.mass();
         let history = |(index, totals): &(usize, WallTotals)| History {
             wall: surface(*index).name.clone(),
