@@ -5,12 +5,12 @@ use super::constant_capture::ConstantCapture;
 use super::constants::Effort;
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
-use super::explanation::{Evidence, add, explore, parts};
+use super::explanation::explore;
 use super::explanations::{Explanations, Told, distinct};
-use super::ground::{Ground, grounds, rivals};
+use super::ground::{Ground, grounds};
 use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
-use super::impact_search::{FittedImpacts, ImpactExplanation, ImpactSearch, evidence};
+use super::impact_search::{ImpactExplanation, ImpactSearch, evidence};
 use super::interval::set_intervals;
 use super::likelihood::Scatter;
 use super::part::FittedPart;
@@ -81,7 +81,7 @@ impl FoundParts {
 
 /// Divides the gains of explanations by the dispersion of captures in classes about the best one, where
 /// impacts of a class are not independent (quasi-likelihood; McCullagh and Nelder 1989, ch. 9).
-fn temper(visited: &mut [ImpactExplanation<'_>], grounds: &[&Ground]) {
+fn temper(visited: &mut [ImpactExplanation<'_>], grounds: &[Ground]) {
     let Some(best) = visited.first() else { return };
     let hypothesis = &best.fitted.hypothesis;
     let data = &grounds[best.fitted.ground].data;
@@ -117,63 +117,15 @@ fn smallest_beside(explanations: &Explanations<ScoredCandidate>, causes: &[Strin
     last.map(|one| one.q_value).fold(1.0, f64::min)
 }
 
-/// Rivals that have evidence beside the best explanation by laws alone, and beside what is left of it without one of
-/// its additions, with the place of the explanation: what an instrument does may show only where a law is known.
-fn rivals_of_laws(
-    visited: &[ImpactExplanation<'_>],
-    task: Task<'_>,
-    evidence: Evidence,
-) -> Vec<(usize, Ground)> {
-    let is_law = |one: &ImpactExplanation<'_>| {
-        let FittedImpacts { ground, hypothesis, found } = &one.fitted;
-        *ground == 0 && !hypothesis.is_stochastic() && found.iter().any(|one| one.addition.is_systematic())
-    };
-    let best = visited.iter().position(is_law).filter(|_| task.effort.with_rivals);
-    let parts_of =
-        |best: usize| parts(&visited[best], visited).into_iter().filter(|part| is_law(&visited[*part]));
-    let laws = best.into_iter().flat_map(|best| [best].into_iter().chain(parts_of(best)));
-    let of = |place: usize| {
-        let law = &visited[place];
-        let found = rivals(&law.fitted.hypothesis, law.freedom, task.text, evidence);
-        found.into_iter().map(move |ground| (place, ground))
-    };
-    laws.flat_map(of).collect()
-}
-
-/// What was visited with the rivals beside laws, the last of the grounds; the one with the largest evidence first.
-fn with_rivals<'a>(
-    mut visited: Vec<ImpactExplanation<'a>>,
-    grounds: &[&'a Ground],
-    beside: &[(usize, Ground)],
-    task: Task<'a>,
-    evidence: Evidence,
-) -> Vec<ImpactExplanation<'a>> {
-    let search = ImpactSearch::new(grounds.to_vec(), evidence, task.effort.refitted, task.progress);
-    let first = grounds.len() - beside.len();
-    let laws = beside
-        .iter()
-        .enumerate()
-        .map(|(place, (law, _))| (first + place, &visited[*law]))
-        .collect::<Vec<_>>();
-    let found = search.on_grounds(&laws);
-    found.into_iter().for_each(|one| add(&mut visited, one, evidence));
-    visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
-    visited
-}
-
 impl CauseChoice {
     /// Chooses among explanations on the fitted rows.
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
         let grounds = grounds(data, task.groups, task.text, evidence);
-        let plain: Vec<&Ground> = grounds.iter().collect();
-        let search = ImpactSearch::new(plain.clone(), evidence, task.effort.refitted, task.progress);
-        let visited = explore(&search, search.starts(), task.effort.expanded);
-        let beside = rivals_of_laws(&visited, task, evidence);
-        let grounds = [plain, beside.iter().map(|(_, ground)| ground).collect()].concat();
-        let mut visited = with_rivals(visited, &grounds, &beside, task, evidence);
+        let search = ImpactSearch::new(&grounds, evidence, task.effort.refitted, task.progress);
+        let mut visited = explore(&search, search.starts(), task.effort.expanded);
         temper(&mut visited, &grounds);
-        let ground = |one: &ImpactExplanation<'_>| grounds[one.fitted.ground];
+        let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
         let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();
         let told = |one: &ImpactExplanation<'_>| Told {
@@ -189,7 +141,7 @@ impl CauseChoice {
     /// The choice of the best explanation, with what is probable enough to be named.
     fn of(
         data: &DataSplit,
-        grounds: &[&Ground],
+        grounds: &[Ground],
         best: Option<&ImpactExplanation<'_>>,
         explanations: Explanations<ScoredCandidate>,
     ) -> Self {

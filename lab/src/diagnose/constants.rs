@@ -24,13 +24,11 @@ pub(super) struct Effort {
     pub expanded: usize,
     /// Explanations of each expansion of which all parameters are fitted together.
     pub refitted: usize,
-    /// Whether rivals are looked for beside laws.
-    pub with_rivals: bool,
 }
 
 /// Of the choice that is told, and of those that only measure the gain.
-pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3, with_rivals: true };
-pub(super) const QUICK: Effort = Effort { expanded: 2, refitted: 1, with_rivals: false };
+pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3 };
+pub(super) const QUICK: Effort = Effort { expanded: 2, refitted: 1 };
 /// The same for rigs, whose candidates are looked at in one table: only fits cost predictions.
-pub(super) const THOROUGH_RIG: Effort = Effort { expanded: 4, refitted: 12, with_rivals: false };
-pub(super) const QUICK_RIG: Effort = Effort { expanded: 3, refitted: 0, with_rivals: false };
+pub(super) const THOROUGH_RIG: Effort = Effort { expanded: 4, refitted: 12 };
+pub(super) const QUICK_RIG: Effort = Effort { expanded: 3, refitted: 0 };

@@ -154,11 +154,6 @@ impl ColumnCurve {
         Self { freedom: closed.freedom(), closed: Some(closed), ..self.clone() }
     }
 
-    /// Whether it is a constant shift of `e_n` or `e_t`.
-    pub fn is_level(&self) -> bool {
-        self.form.sides.is_empty() && self.form.observable != Observable::Capture
-    }
-
     /// The same curve fitted again; `None` where there are too few points.
     pub fn again(&self, evaluation: &Evaluation<'_>) -> Option<Self> {
         let free = self.form.clone().fit(evaluation)?;

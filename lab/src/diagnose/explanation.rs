@@ -16,9 +16,6 @@
 /// Ratio of evidence beyond which an explanation is not pursued, as a logarithm [nats]: 20 to 1.
 pub(super) const WINDOW: f64 = 3.0;
 
-/// How often the search is made anew beside the parts of the best explanation: this may lead to another one.
-const PARTS_OF_BEST: usize = 3;
-
 /// An explanation with everything fitted.
 #[derive(Debug, Clone)]
 pub(super) struct Explanation<F> {
@@ -92,9 +89,8 @@ pub(super) trait Explained {
     ) -> Vec<Explanation<Self::Fitted>>;
 }
 
-/// All explanations that the search visits from `starts`, the one with the largest evidence first. From the first start
-/// alone, and then from all, it expands until the effort reaches `most`: a rival with more evidence than any one law
-/// would hide those that explain the data together.
+/// All explanations that the search visits from `starts`, the one with the largest evidence first. It expands
+/// until the effort reaches `most`.
 pub(super) fn explore<K: Explained>(
     kind: &K,
     starts: Vec<Explanation<K::Fitted>>,
@@ -102,32 +98,22 @@ pub(super) fn explore<K: Explained>(
 ) -> Vec<Explanation<K::Fitted>> {
     let evidence = kind.evidence();
     let mut visited = Vec::new();
+    starts.into_iter().for_each(|start| add(&mut visited, start, evidence));
     let mut expanded: Vec<Vec<String>> = Vec::new();
-    let mut starts = starts.into_iter();
-    let first: Vec<Explanation<K::Fitted>> = starts.by_ref().take(1).collect();
-    for own in [first, starts.collect()] {
-        if own.is_empty() {
-            continue;
-        }
-        own.into_iter().for_each(|start| add(&mut visited, start, evidence));
-        let mut spent = 0;
-        while spent < most
-            && let Some(next) = next(&visited, &expanded, evidence)
-        {
-            spent += kind.effort(&next);
-            expanded.push(next.keys.clone());
-            let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
-            let reduced = kind.reduced(&next, &known);
-            let extended = kind.extended(&next);
-            extended.into_iter().chain(reduced).for_each(|one| add(&mut visited, one, evidence));
-        }
+    let mut spent = 0;
+    while spent < most
+        && let Some(next) = next(&visited, &expanded, evidence)
+    {
+        spent += kind.effort(&next);
+        expanded.push(next.keys.clone());
+        let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
+        let reduced = kind.reduced(&next, &known);
+        let extended = kind.extended(&next);
+        extended.into_iter().chain(reduced).for_each(|one| add(&mut visited, one, evidence));
     }
-    for _ in 0..PARTS_OF_BEST {
-        for part in parts_of_best(&visited, &expanded, evidence) {
-            expanded.push(part.keys.clone());
-            if kind.effort(&part) == 1 {
-                kind.extended(&part).into_iter().for_each(|one| add(&mut visited, one, evidence));
-            }
+    for part in parts_of_best(&visited, &expanded, evidence) {
+        if kind.effort(&part) == 1 {
+            kind.extended(&part).into_iter().for_each(|one| add(&mut visited, one, evidence));
         }
     }
     visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
@@ -142,17 +128,10 @@ fn parts_of_best<F: Clone>(
     evidence: Evidence,
 ) -> Vec<Explanation<F>> {
     let best = visited.iter().max_by(|a, b| evidence.of(a).total_cmp(&evidence.of(b)));
-    let parts =
-        best.map(|best| parts(best, visited)).unwrap_or_default().into_iter().map(|part| &visited[part]);
-    parts.filter(|part| !expanded.contains(&part.keys)).cloned().collect()
-}
-
-/// The places of an explanation without each of its additions among those that were visited; not of the base model.
-pub(super) fn parts<F>(of: &Explanation<F>, visited: &[Explanation<F>]) -> Vec<usize> {
-    let keys = &of.keys;
+    let keys = best.map_or(&[][..], |best| &best.keys);
     let without = |place: usize| [&keys[..place], &keys[place + 1..]].concat();
-    let parts = (0..keys.len()).map(without).filter(|part| !part.is_empty());
-    parts.filter_map(|part| visited.iter().position(|one| one.keys == part)).collect()
+    let parts = (0..keys.len()).map(without).filter(|part| !part.is_empty() && !expanded.contains(part));
+    parts.filter_map(|part| visited.iter().find(|one| one.keys == part).cloned()).collect()
 }
 
 /// The explanation that is expanded next.
@@ -178,7 +157,7 @@ fn next<F: Clone>(
 }
 
 /// Adds an explanation; of two with the same additions the better fit stays.
-pub(super) fn add<F>(visited: &mut Vec<Explanation<F>>, mut new: Explanation<F>, evidence: Evidence) {
+fn add<F>(visited: &mut Vec<Explanation<F>>, mut new: Explanation<F>, evidence: Evidence) {
     new.keys.sort();
     if evidence.of(&new).is_nan() {
         return;

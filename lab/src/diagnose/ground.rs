@@ -1,7 +1,5 @@
 //! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
 
-use rayon::prelude::*;
-
 use super::candidate::{Class, FURTHER};
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
@@ -94,53 +92,45 @@ pub(super) fn grounds(
         (false, false) => &[],
     };
     all.extend(shares.iter().map(|share| with_rubbish(data, *share)));
-    // Of a large file the rows that are not searched are changed only where it is worth it.
+    // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
     all.extend(unstated_errors(data, &searched, evidence));
-    let base = Hypothesis::base(data);
-    all.extend(rivals(&base, 0.0, text, evidence));
-    let skewed = Ground { log_prior: rival_prior(readings(&base).len()), ..skewed(data) };
-    all.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
+    let others: Vec<OtherReading> = slips(&data.base, text).into_iter().chain(readings(data)).collect();
+    let read = others.iter().filter_map(|other| {
+        let near = |value: f64| other.near(value);
+        best(data, &searched, other.values.clone(), near, evidence, &|data, value| read(data, other, value))
+    });
+    let skewed = skewed(data);
+    let read = read.chain((worth(&skewed, evidence) > 0.0).then_some(skewed));
+    let log_prior = Class::Rival.log_prior(others.len() + 1);
+    all.extend(read.map(|ground| Ground { log_prior, ..ground }));
     all
-}
-
-/// Other readings of the rows that have more evidence, beside a hypothesis with so many parameters, than the rows as
-/// they are; `text` is the file of the base model.
-pub(super) fn rivals(of: &Hypothesis<'_>, freedom: f64, text: &str, evidence: Evidence) -> Vec<Ground> {
-    let (searched, of) = (of.data.searched(), of.without_discrepancy());
-    let worth = |ground: &Ground| {
-        let here = Hypothesis { data: &ground.data, ..of.clone() };
-        evidence.gain(ground.scores(&here).iter().sum(), ground.freedom + freedom)
-    };
-    let present = worth(&Ground::plain(&searched));
-    let best = |other: &OtherReading| {
-        let tried = |values: Vec<f64>| {
-            let scored = values.into_iter().filter_map(|at| Some((worth(&read(&searched, other, at)?), at)));
-            scored.filter(|(worth, _)| worth.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
-        };
-        let first = tried(other.values.clone())?;
-        let finer = tried(other.near(first.1)).filter(|finer| finer.0 > first.0);
-        let (worth, value) = finer.unwrap_or(first);
-        if worth > present { read(of.data, other, value) } else { None }
-    };
-    let kinds = [slips(&of.data.base, text), readings(&of)];
-    let of_kind = |others: &Vec<OtherReading>| {
-        let log_prior = rival_prior(others.len());
-        let found: Vec<Ground> = others.par_iter().filter_map(best).collect();
-        found.into_iter().map(move |ground| Ground { log_prior, ..ground })
-    };
-    kinds.iter().flat_map(of_kind).collect()
-}
-
-/// Logarithm of the prior probability of one of so many rivals of a kind, beside the scatter to one side [nats].
-fn rival_prior(others: usize) -> f64 {
-    Class::Rival.log_prior(others + 1)
 }
 
 /// Log evidence of the base model on a ground over that on the rows as they are [nats].
 fn worth(ground: &Ground, evidence: Evidence) -> f64 {
     let score: f64 = ground.scores(&Hypothesis::base(&ground.data)).iter().sum();
     evidence.gain(score, ground.freedom)
+}
+
+/// The ground that `read` makes of the rows for the best of some values, and of others `near` that one;
+/// tried on the rows that are `searched`. `None` if the rows as they are have more evidence.
+fn best(
+    data: &DataSplit,
+    searched: &DataSplit,
+    values: Vec<f64>,
+    near: impl Fn(f64) -> Vec<f64>,
+    evidence: Evidence,
+    read: &dyn Fn(&DataSplit, f64) -> Option<Ground>,
+) -> Option<Ground> {
+    let tried = |values: Vec<f64>| {
+        let scored = values.into_iter().filter_map(|at| Some((worth(&read(searched, at)?, evidence), at)));
+        scored.filter(|(worth, _)| worth.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let first = tried(values)?;
+    let finer = tried(near(first.1)).filter(|finer| finer.0 > first.0);
+    let (worth, value) = finer.unwrap_or(first);
+    if worth > 0.0 { read(data, value) } else { None }
 }
 
 /// Inputs and the sizes of their errors, as shares of the value [1].

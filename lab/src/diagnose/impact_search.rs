@@ -7,12 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use rayon::prelude::*;
-
 use super::candidate::{Addition, Candidate, Class, FURTHER, SAME_CAUSE, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
-use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
@@ -39,7 +36,7 @@ pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
 
 /// The search on some grounds.
 pub(super) struct ImpactSearch<'a> {
-    grounds: Vec<&'a Ground>,
+    grounds: &'a [Ground],
     evidence: Evidence,
     /// Explanations of each expansion that are fitted together.
     refitted: usize,
@@ -62,7 +59,7 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
 
 impl<'a> ImpactSearch<'a> {
     pub fn new(
-        grounds: Vec<&'a Ground>,
+        grounds: &'a [Ground],
         evidence: Evidence,
         refitted: usize,
         progress: &'a (dyn Fn(&str) + Sync),
@@ -80,27 +77,8 @@ impl<'a> ImpactSearch<'a> {
             let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };
             Explanation { keys, fitted, scores, freedom, log_prior: ground.log_prior }
         };
-        let is_start = |(place, ground): &(usize, &'a Ground)| *place == 0 || ground.is_rival();
-        self.grounds.iter().copied().enumerate().filter(is_start).map(start).collect()
-    }
-
-    /// These explanations by laws, each on the ground with this index, with all parameters fitted together; and the best
-    /// of them without each of its additions.
-    pub fn on_grounds(&self, laws: &[(usize, &ImpactExplanation<'a>)]) -> Vec<ImpactExplanation<'a>> {
-        let on = |&(place, law): &(usize, &ImpactExplanation<'a>)| {
-            let ground = self.grounds[place];
-            let mut new = law.clone();
-            new.keys.push(ground.key.clone());
-            new.fitted.ground = place;
-            new.fitted.hypothesis.data = &ground.data;
-            new.log_prior += ground.log_prior;
-            new.fitted.hypothesis.fit_with_discrepancy();
-            self.with_or_without_remainder(new)
-        };
-        let mut all: Vec<ImpactExplanation<'a>> = laws.par_iter().map(on).collect();
-        let best = all.iter().max_by(|a, b| self.evidence.of(a).total_cmp(&self.evidence.of(b)));
-        all.extend(best.map(|best| self.reduced(best, &|_| false)).into_iter().flatten());
-        all
+        let is_start = |(place, ground): &(usize, &Ground)| *place == 0 || ground.is_rival();
+        self.grounds.iter().enumerate().filter(is_start).map(start).collect()
     }
 
     /// Number of parameters of a scatter beyond stated errors.
@@ -126,7 +104,7 @@ impl<'a> ImpactSearch<'a> {
 
     /// The same with all parameters fitted together.
     fn refitted(&self, of: &ImpactExplanation<'a>, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
-        let ground = self.grounds[of.fitted.ground];
+        let ground = &self.grounds[of.fitted.ground];
         // With random draws a fit of all takes long, and the last addition is fitted.
         if new.fitted.hypothesis.is_stochastic() {
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
@@ -147,7 +125,7 @@ impl<'a> ImpactSearch<'a> {
 
     /// The scores of an explanation by its laws alone, or with the remainder if this pays for its parameters.
     fn with_or_without_remainder(&self, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
-        let ground = self.grounds[new.fitted.ground];
+        let ground = &self.grounds[new.fitted.ground];
         let hypothesis = &new.fitted.hypothesis;
         let own = ground.freedom + hypothesis.freedom() + self.beyond_stated(hypothesis);
         let alone = ground.scores(&hypothesis.without_discrepancy());
@@ -190,42 +168,12 @@ impl<'a> ImpactSearch<'a> {
         with.collect()
     }
 
-    /// Laws with a level of `e_n` or `e_t` that adds or multiplies, fitted together: a law takes on a level as far as
-    /// it can, so that the level gains nothing beside the law as it is.
-    fn with_levels(
-        &self,
-        of: &ImpactExplanation<'a>,
-        list: &[Candidate],
-        prior: &dyn Fn(Class, usize) -> f64,
-    ) -> Vec<ImpactExplanation<'a>> {
-        let hypothesis = &of.fitted.hypothesis;
-        if hypothesis.parts.is_empty() || hypothesis.is_stochastic() {
-            return Vec::new();
-        }
-        let observables = list.iter().filter_map(|one| match one {
-            Candidate::Curve { sides: [None, None], observable } => Some(*observable),
-            _ => None,
-        });
-        let forms = observables
-            .filter(|one| *one != Observable::Capture)
-            .flat_map(|one| [false, true].map(|multiplicative| ColumnCurveForm::level(one, multiplicative)));
-        let share = 1.0 / of.scores.len().max(1) as f64;
-        let with = |form| {
-            let level = Addition::Curve(ColumnCurve::constant(form, 0.0));
-            let differences = vec![-share; of.scores.len()];
-            let level = ScoredCandidate::unproven(level, differences, prior(Class::Level, 0));
-            self.refitted(of, self.beside(of, level))
-        };
-        forms.map(with).collect()
-    }
-
     /// The explanation with errors that groups share.
     fn grouped(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
         if of.fitted.ground != 0 {
             return Vec::new();
         }
-        let noise =
-            self.grounds.iter().copied().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
+        let noise = self.grounds.iter().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
         let count = noise.clone().count();
         let before = self.grounds[0].scores(&of.fitted.hypothesis);
         let on = |(place, ground): (usize, &'a Ground)| {
@@ -287,7 +235,6 @@ impl<'a> Explained for ImpactSearch<'a> {
         let rest = all.split_off(all.len().min(self.refitted));
         let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(below);
         let mut found: Vec<_> = refitted.chain(rest).collect();
-        found.extend(self.with_levels(of, &list, &prior));
         let at_bound =
             |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
         found.retain(|new| !at_bound(&new.fitted.hypothesis));

@@ -1,6 +1,6 @@
 //! Other readings of the rows: what an instrument or a geometry does to the numbers, each with at most one parameter.
 
-use super::hypothesis::Hypothesis;
+use super::data_split::DataSplit;
 use super::instrument;
 use super::likelihood::Offset;
 use crate::dataset::Measurement;
@@ -36,7 +36,7 @@ impl OtherReading {
     }
 }
 
-/// All readings that the rows of a hypothesis allow, beside slips.
-pub(super) fn readings(of: &Hypothesis<'_>) -> Vec<OtherReading> {
-    instrument::ALL.iter().filter_map(|reading| reading(of)).collect()
+/// All readings that the rows allow, beside slips.
+pub(super) fn readings(data: &DataSplit) -> Vec<OtherReading> {
+    instrument::ALL.iter().filter_map(|reading| reading(data)).collect()
 }

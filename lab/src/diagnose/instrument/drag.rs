@@ -6,7 +6,7 @@
 //! `c` [m³/s], tried from a thousandth to a half of the least `v_n d²`. The slope of `e_n` is
 //! `v_n/(v_n - Δ)`.
 
-use super::super::hypothesis::Hypothesis;
+use super::super::data_split::DataSplit;
 use super::super::likelihood::Offset;
 use super::super::reading::OtherReading;
 use crate::dataset::{Measurement, Reading};
@@ -14,7 +14,7 @@ use crate::dataset::{Measurement, Reading};
 /// Values tried.
 const VALUES: usize = 16;
 
-pub(super) fn reading(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<OtherReading> {
+pub(super) fn reading(data: &DataSplit) -> Option<OtherReading> {
     data.range("d")?;
     let product = |&row: &usize| {
         let impact = &data.rows[row].impact;

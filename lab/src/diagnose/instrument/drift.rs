@@ -1,11 +1,11 @@
 //! Readings that drift in the order of the file: a lamp, a camera, a wall that gets dirty.
 //!
 //! The row at the share `x` of the lines, 0 the first and 1 the last, reads `e_n + a + s x`: a line
-//! through the residuals of the model, with the drift `s` [1] over the file tried about its
+//! through the residuals of the base model, with the drift `s` [1] over the file tried about its
 //! slope. `e_t` may drift instead.
 //!
 //! Rows that are sorted by a column cannot tell a drift from a dependence on it. The drift then counts
-//! as `2 + R²` parameters, up to the three of most closed forms over that column, of which a curve explains
+//! as `2 + R² (k-2)` parameters, up to the `k` heights of a curve over that column, which explains
 //! the share `R²` of the variance of `x`.
 
 use super::super::data_split::DataSplit;
@@ -17,20 +17,20 @@ use super::super::smooth::{Basis, WeightedResidual, ridge, sum};
 /// Drifts that are tried, over the slope of the residuals [1].
 const TRIED: [f64; 5] = [0.6, 0.8, 1.0, 1.2, 1.4];
 
-pub(super) fn of_e_n(of: &Hypothesis<'_>) -> Option<OtherReading> {
-    reading(of, Observable::NormalRestitution)
+pub(super) fn of_e_n(data: &DataSplit) -> Option<OtherReading> {
+    reading(data, Observable::NormalRestitution)
 }
 
-pub(super) fn of_e_t(of: &Hypothesis<'_>) -> Option<OtherReading> {
-    reading(of, Observable::TangentialRestitution)
+pub(super) fn of_e_t(data: &DataSplit) -> Option<OtherReading> {
+    reading(data, Observable::TangentialRestitution)
 }
 
-fn reading(of: &Hypothesis<'_>, observable: Observable) -> Option<OtherReading> {
-    let data = of.data;
+fn reading(data: &DataSplit, observable: Observable) -> Option<OtherReading> {
     let lines = || data.rows.iter().map(|row| row.line);
     let (first, last) = (lines().min()? as f64, lines().max()? as f64);
     let place = move |line: u64| (line as f64 - first) / (last - first);
-    let residuals = of.evaluate(&*data.search, of.offsets()).residuals(observable, false);
+    let base = Hypothesis::base(data);
+    let residuals = base.evaluate(&*data.search, base.offsets()).residuals(observable, false);
     let Line { middle, level, slope } = Line::through(&residuals, |row| place(data.rows[row].line))?;
     let mut values = TRIED.map(|factor| factor * slope).to_vec();
     values.sort_by(f64::total_cmp);
@@ -93,7 +93,7 @@ fn freedom(data: &DataSplit, place: impl Fn(u64) -> f64) -> f64 {
         let curve = ridge(&basis.penalty(), &points, |row| basis.entry(values, row))?;
         let left = |one: &WeightedResidual| one.residual - sum(&basis.entry(values, one.row), &curve.heights);
         let explained = 1.0 - variance(&left) / variance(&|one| one.residual);
-        Some(2.0 + explained.clamp(0.0, 1.0))
+        Some(2.0 + explained.clamp(0.0, 1.0) * (basis.len() as f64 - 2.0))
     };
     (0..data.covariates.len()).filter_map(of_column).fold(2.0, f64::max)
 }

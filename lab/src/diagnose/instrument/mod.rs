@@ -2,20 +2,18 @@
 
 mod drag;
 mod drift;
-mod projection;
 mod tilt;
 mod unseen;
 
-use super::hypothesis::Hypothesis;
+use super::data_split::DataSplit;
 use super::reading::OtherReading;
 
-/// One reading for the rows of a hypothesis; `None` where they do not have what it needs.
-type Reading = fn(&Hypothesis<'_>) -> Option<OtherReading>;
+/// One reading for some rows; `None` where they do not have what it needs.
+type Reading = fn(&DataSplit) -> Option<OtherReading>;
 
 /// All of them.
-pub(super) const ALL: [Reading; 8] = [
+pub(super) const ALL: [Reading; 7] = [
     tilt::reading,
-    projection::reading,
     drag::reading,
     drift::of_e_n,
     drift::of_e_t,

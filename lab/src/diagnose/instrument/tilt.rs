@@ -7,7 +7,7 @@
 //! The slope of the two readings is `v_n v_t/(v_n' v_t')`. It needs `v_t`, and `e_t` in every row with
 //! `e_n`.
 
-use super::super::hypothesis::Hypothesis;
+use super::super::data_split::DataSplit;
 use super::super::likelihood::Offset;
 use super::super::reading::OtherReading;
 use super::values;
@@ -16,7 +16,7 @@ use crate::dataset::{Measurement, Reading};
 /// Largest angle [degrees].
 const LARGEST: f64 = 15.0;
 
-pub(super) fn reading(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<OtherReading> {
+pub(super) fn reading(data: &DataSplit) -> Option<OtherReading> {
     data.range("v_t")?;
     let rebounds = || data.search.iter().map(|&row| &data.rows[row]).filter(|row| row.e_n.is_some());
     (rebounds().next().is_some() && rebounds().all(|row| row.e_t.is_some())).then(|| OtherReading {

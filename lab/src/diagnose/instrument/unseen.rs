@@ -5,14 +5,13 @@
 //! the user states is in the noise of the rows already.
 
 use super::super::data_split::DataSplit;
-use super::super::hypothesis::Hypothesis;
 use super::super::reading::OtherReading;
 use crate::dataset::Measurement;
 
 /// The limit as a share of the least reading.
 const BELOW: f64 = 0.9999;
 
-pub(super) fn by_ratio(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<OtherReading> {
+pub(super) fn by_ratio(data: &DataSplit) -> Option<OtherReading> {
     let limit = least(data, |_| 1.0)?;
     let question = |limit: f64| {
         format!(
@@ -23,7 +22,7 @@ pub(super) fn by_ratio(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<Other
     Some(limited("artefact:truncation", limit, Box::new(question), |_| 1.0, false))
 }
 
-pub(super) fn by_speed(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<OtherReading> {
+pub(super) fn by_speed(data: &DataSplit) -> Option<OtherReading> {
     data.range("v_n")?;
     let limit = least(data, |row| row.impact.normal_speed)?;
     let question = |limit: f64| {
@@ -35,7 +34,7 @@ pub(super) fn by_speed(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<Other
     Some(limited("artefact:truncation", limit, Box::new(question), |row| row.impact.normal_speed, false))
 }
 
-pub(super) fn noted_as_stuck(Hypothesis { data, .. }: &Hypothesis<'_>) -> Option<OtherReading> {
+pub(super) fn noted_as_stuck(data: &DataSplit) -> Option<OtherReading> {
     data.search.iter().find(|&&row| data.rows[row].captured.is_some_and(|share| share > 0.5))?;
     let limit = least(data, |row| row.impact.normal_speed)?;
     let question = |limit: f64| {
