@@ -4,10 +4,7 @@
 //! does, `sticky_from` and `flows_from` are shares of liquid [1]. Ashes that stick by their fusion temperatures, and
 //! droplets, have no such number: theirs belong to the material.
 
-use std::sync::Arc;
-
-use super::{Capture, Criterion, StickinessCriterion, Unsuitable};
-use crate::material::Material;
+use super::{Capture, Criterion};
 
 impl Capture {
     /// Key and value [Pa s or 1] of each number; none without a criterion that has one.
@@ -33,29 +30,6 @@ impl Capture {
             Some(Criterion::MeltFraction(criterion)) => criterion.numbers_mut().into(),
             Some(Criterion::Fusion(_) | Criterion::Droplet(_)) | None => Vec::new(),
         }
-    }
-
-    /// The stickiness of particles of a material; `None` without a criterion that applies to it.
-    ///
-    /// # Errors
-    /// As [`Criterion::of_particle`].
-    pub(crate) fn of_particle(
-        self,
-        material: &Material,
-    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
-        Ok(self.criterion.map(|criterion| criterion.of_particle(material)).transpose()?.flatten())
-    }
-
-    /// The stickiness of slag on a wall that particles of a material meet; `None` as in [`Self::of_particle`].
-    ///
-    /// # Errors
-    /// As [`Criterion::of_slag`].
-    pub(crate) fn of_slag(
-        self,
-        slag: &Material,
-        particle: &Material,
-    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
-        Ok(self.criterion.map(|criterion| criterion.of_slag(slag, particle)).transpose()?.flatten())
     }
 }
 

@@ -114,6 +114,29 @@ impl Capture {
         let combination = self.combination.describe();
         self.criterion.map(|criterion| format!("{}, combination {combination}", criterion.describe()))
     }
+
+    /// The stickiness of particles of a material; `None` without a criterion that applies to it.
+    ///
+    /// # Errors
+    /// As [`Criterion::of_particle`].
+    pub(crate) fn of_particle(
+        self,
+        material: &Material,
+    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
+        Ok(self.criterion.map(|criterion| criterion.of_particle(material)).transpose()?.flatten())
+    }
+
+    /// The stickiness of slag on a wall that particles of a material meet; `None` as in [`Self::of_particle`].
+    ///
+    /// # Errors
+    /// As [`Criterion::of_slag`].
+    pub(crate) fn of_slag(
+        self,
+        slag: &Material,
+        particle: &Material,
+    ) -> Result<Option<Arc<dyn StickinessCriterion>>, Unsuitable> {
+        Ok(self.criterion.map(|criterion| criterion.of_slag(slag, particle)).transpose()?.flatten())
+    }
 }
 
 impl Criterion {

@@ -460,7 +460,8 @@ fn explain(finding: &Finding) -> String {
 
 /// The table of a model file with the criterion of capture, and why its numbers were no candidates.
 const CAPTURE: &str = "capture";
-const NO_NUMBER: &str = "its criterion takes the material's numbers, which are taken as they are: captures may be wrong by them, too";
+const NO_NUMBER: &str = "its criterion uses numbers of the material, which are taken as they are: captures may be \
+                         wrong by them, too";
 
 /// Why no number of the case was a candidate.
 const NO_CASE: &str =

@@ -117,7 +117,7 @@ pub(super) fn figures(comparison: &RunComparison<'_>) -> Vec<Figure> {
     figures
 }
 
-/// How the surface and the heat through each cooled wall of a single run change, in a sentence.
+/// How the surface and the heat through the cooled walls of a single run change, in one sentence.
 pub(super) fn heat_words(comparison: &RunComparison<'_>) -> Option<String> {
     let [run] = comparison.runs else { return None };
     let of_wall = |wall: &History<DepositState>| {
@@ -131,15 +131,15 @@ pub(super) fn heat_words(comparison: &RunComparison<'_>) -> Option<String> {
             let [[cold, hot], [before, after]] = [temperatures.map(f64::round), fluxes.map(|flux| 1e-3 * flux)];
             let [before, after] = [before, after].map(|flux| number((10.0 * flux).round() / 10.0));
             format!(
-                "On {} the surface that impacts meet goes from {cold} to {hot} K over {}, and the heat through the \
-                 wall from {before} to {after} kW/m² (means over the wall).",
+                "on {} the surface that impacts meet goes from {cold} to {hot} K over {}, and the heat through the \
+                 wall from {before} to {after} kW/m²",
                 wall.wall,
                 duration(*end)
             )
         })
     };
-    let sentences: Vec<String> = run.deposits.iter().filter_map(of_wall).collect();
-    (!sentences.is_empty()).then(|| sentences.join(" "))
+    let walls: Vec<String> = run.deposits.iter().filter_map(of_wall).collect();
+    (!walls.is_empty()).then(|| format!("In the mean over a wall, {}.", walls.join("; ")))
 }
 
 /// Whether a column is there and changes over time.

@@ -29,15 +29,12 @@ pub(super) fn lead(comparison: &RunComparison<'_>) -> String {
     format!("{models}. {at} at {}.", comparison.when())
 }
 
-/// A few sentences, however many runs there are.
+/// At most four sentences, however many runs there are.
 pub(super) fn lines(comparison: &RunComparison<'_>) -> Vec<String> {
     if let [run] = comparison.runs {
-        let sentences = [
-            busiest(comparison, run),
-            reason(comparison, run),
-            deposit::heat_words(comparison),
-            certainty(comparison, run),
-        ];
+        // Of a wall that takes heat the figures tell the regime.
+        let why = deposit::heat_words(comparison).or_else(|| reason(comparison, run));
+        let sentences = [busiest(comparison, run), why, certainty(comparison, run)];
         return iter::once(single(comparison, run)).chain(sentences.into_iter().flatten()).collect();
     }
     let mut lines = several(comparison);
