@@ -136,6 +136,7 @@ fn coverage(sets: u64, impacts: usize, softening: f64) -> [f64; 2] {
         done(path, &["diagnose", "data.csv", "--model", "base.toml", "--draws", "39", "--out", "out"]);
         let findings = json(&path.join("out/diagnosis.json"))["findings"].clone();
         if findings.as_array().unwrap().len() != 1 || findings[0]["cause"] != "melting-transition" {
+            println!("{impacts} impacts, set {seed}: {findings}");
             return None;
         }
         let with = ["predict", "--model", "out/extended.toml", "--draws", "out/draws", "fresh.csv"];

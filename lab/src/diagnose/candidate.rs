@@ -141,6 +141,20 @@ impl Addition {
         }
     }
 
+    /// The id of the cause, and of a curve the laws that describe the same dependence; none for what is noise. With
+    /// `law_or_curve` of a law the curve, too.
+    pub fn names(&self, data: &DataSplit, law_or_curve: bool) -> Vec<String> {
+        let same = match self {
+            Self::Curve(curve) => curve.form.laws(data),
+            Self::Part { part: FittedPart { part: Part::Effect(effect), .. }, .. } if law_or_curve => {
+                vec![format!("unknown:{}", effect.inputs.join("*"))]
+            }
+            _ => Vec::new(),
+        };
+        let own = self.is_systematic().then(|| self.name(data));
+        own.into_iter().chain(same).collect()
+    }
+
     /// The columns that it depends on.
     pub fn variables(&self, data: &DataSplit) -> Vec<String> {
         match self {

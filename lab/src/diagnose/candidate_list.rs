@@ -7,7 +7,6 @@ use super::hypothesis::Hypothesis;
 use super::observable::Observable;
 use super::part::{LawParameter, Part};
 use crate::dataset::ColumnValues;
-use nearwall::effect::EFFECTS;
 
 /// Least number of measurements for a curve.
 const LEAST_CURVE_ROWS: usize = 4;
@@ -35,13 +34,8 @@ pub(super) fn candidates(hypothesis: &Hypothesis<'_>, few: bool) -> Vec<Candidat
 
 /// The effects and the parameters of the base's laws that the hypothesis does not have yet.
 fn parts(hypothesis: &Hypothesis<'_>) -> Vec<Candidate> {
-    let base = &hypothesis.data.base;
-    let effects = EFFECTS.iter().map(|effect| Part::Effect(effect));
-    let taken = |name: String| {
-        hypothesis.parts.iter().any(|part| part.part.name() == name)
-            || base.terms().iter().any(|term| term.kind().id == name)
-    };
-    let all = effects.chain(LawParameter::all(base).into_iter().map(Part::LawParameter));
+    let taken = |name: String| hypothesis.parts.iter().any(|part| part.part.name() == name);
+    let all = Part::all(&hypothesis.data.base).into_iter();
     all.filter(|part| !taken(part.name())).map(Candidate::Part).collect()
 }
 

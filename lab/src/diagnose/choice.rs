@@ -45,6 +45,8 @@ pub(super) struct CauseChoice {
     pub shared: SharedErrors,
     /// Share of gross errors of the best explanation, where more than the expected one fits better [1].
     pub gross_errors: Option<f64>,
+    /// Whether the best explanation has heavy tails.
+    pub heavy_tails: bool,
     /// The parts, curves and scatter of the search.
     state: FoundParts,
 }
@@ -135,7 +137,7 @@ impl CauseChoice {
         };
         let explanations = Explanations::new(&visited, evidence, &units, told);
         let best = explanations.best().map(|best| &visited[best.place]);
-        Self::of(data, &grounds, best, explanations)
+        Self::of(data, &grounds, best, explanations, task.effort.law_or_curve)
     }
 
     /// The choice of the best explanation, with what is probable enough to be named.
@@ -144,21 +146,22 @@ impl CauseChoice {
         grounds: &[Ground],
         best: Option<&ImpactExplanation<'_>>,
         explanations: Explanations<ScoredCandidate>,
+        law_or_curve: bool,
     ) -> Self {
         let ground = best.map_or(0, |best| best.fitted.ground);
         // A rival asks the user before any physics is named.
         let data = if grounds[ground].is_rival() { data } else { &grounds[ground].data };
         let hypothesis = best.map_or_else(|| Hypothesis::base(data), |best| best.fitted.hypothesis.clone());
-        let name = |one: &ScoredCandidate| one.addition.is_systematic().then(|| one.addition.name(data));
-        let discoveries = explanations.named(|one| name(one).into_iter().collect());
+        let discoveries = explanations.named(|one| one.addition.names(data, law_or_curve));
         let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
         let state = FoundParts::of(&hypothesis, &keys);
         let causes: Vec<String> = discoveries.iter().map(|one| one.addition.name(data)).collect();
         let structure =
             [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
         let (data, shared) = (data.clone(), SharedErrors::default());
-        let gross_errors = grounds[ground].gross_errors;
-        let mut choice = Self { data, explanations, discoveries, structure, shared, gross_errors, state };
+        let Ground { gross_errors, heavy_tails, .. } = grounds[ground];
+        let mut choice =
+            Self { data, explanations, discoveries, structure, shared, gross_errors, heavy_tails, state };
         // The scatter about what is named, without the rest of the explanation.
         let mut named = choice.hypothesis(&choice.data);
         named.fit_scatter(&choice.data.search);

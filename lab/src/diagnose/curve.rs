@@ -8,7 +8,9 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
+use super::sentences::LEVEL_SHIFT;
 use super::smooth::{Basis, Entry, Smoothed, product, ridge, sum};
+use nearwall::effect::{EFFECTS, EffectInfo};
 
 /// Rounds of the iteratively reweighted fit of capture.
 const ROUNDS: usize = 5;
@@ -57,7 +59,7 @@ impl ColumnCurveForm {
     /// The id of the cause.
     pub fn name(&self, data: &DataSplit) -> String {
         if self.sides.is_empty() {
-            return "level-shift".to_owned();
+            return LEVEL_SHIFT.to_owned();
         }
         format!("unknown:{}", self.columns(data).join("*"))
     }
@@ -70,6 +72,13 @@ impl ColumnCurveForm {
     /// The names of its columns.
     pub fn columns(&self, data: &DataSplit) -> Vec<String> {
         self.sides.iter().map(|(column, _)| data.covariates[*column].name.clone()).collect()
+    }
+
+    /// Ids of the effects that depend on its columns alone: their laws are forms over them.
+    pub fn laws(&self, data: &DataSplit) -> Vec<String> {
+        let columns = self.columns(data);
+        let is_over = |effect: &&EffectInfo| !columns.is_empty() && effect.inputs.iter().eq(columns.iter());
+        EFFECTS.into_iter().filter(is_over).map(|effect| effect.id.to_owned()).collect()
     }
 
     fn smooth(
@@ -152,6 +161,11 @@ impl ColumnCurve {
     /// The curve with a closed form in the place of its heights.
     pub fn closed_by(&self, closed: ClosedForm) -> Self {
         Self { freedom: closed.freedom(), closed: Some(closed), ..self.clone() }
+    }
+
+    /// Whether it is a constant shift of `e_n` or `e_t`.
+    pub fn is_level(&self) -> bool {
+        self.form.sides.is_empty() && self.form.observable != Observable::Capture
     }
 
     /// The same curve fitted again; `None` where there are too few points.

@@ -7,7 +7,7 @@ use super::constant_capture::ConstantCapture;
 use super::data_split::DataSplit;
 use super::forecast::{Forecast, Prediction};
 use super::likelihood::{
-    Mean, Offset, SMALLEST_SCATTER, Scatter, add_squares, censored, mean, reading_noise, regular, score,
+    Mean, Offset, SMALLEST_SCATTER, Scatter, Weight, add_squares, censored, mean, reading_noise, score,
 };
 use super::observable::Observable;
 use super::shared_error::{GroupSums, SharedErrors};
@@ -200,7 +200,11 @@ impl<'a> Evaluation<'a> {
             let reading = reading?;
             let (width, shift) = reading_noise(self.scatter[which], offset, which, row, &reading, mean);
             let value = reading.value - mean.restitution[which] - shift;
-            Some(Residual { which, value, weight: regular(value, width, offset.gross) / (width * width) })
+            Some(Residual {
+                which,
+                value,
+                weight: Weight::of(value, width, offset).precision / (width * width),
+            })
         };
         let limit = |(which, limit): (usize, Option<Limit>)| {
             let seen = censored(self.scatter[which], offset, which, row, &limit?, mean);

@@ -92,6 +92,12 @@ impl<A: Clone> Explanations<A> {
         self.0.iter().filter(|one| one.has(cause)).map(|one| one.probability).sum()
     }
 
+    /// Probability that any of these causes takes part [1].
+    pub fn probability_of_any(&self, names: &[String]) -> f64 {
+        let any = self.0.iter().filter(|one| names.iter().any(|name| one.has(name)));
+        any.map(|one| one.probability).sum()
+    }
+
     /// Share of the draws in which an explanation with this cause is the most likely one [1].
     pub fn certainty(&self, cause: &str) -> f64 {
         self.0.iter().filter(|one| one.has(cause)).map(|one| one.first).sum()
@@ -112,11 +118,7 @@ impl<A: Clone> Explanations<A> {
     /// a rival, which asks the user before any physics is named. `names` are the cause and those that describe the
     /// same dependence, which count together; none for what is noise.
     pub fn named(&self, names: impl Fn(&A) -> Vec<String>) -> Vec<A> {
-        let probable = |one: &&A| {
-            let names = names(one);
-            let any = self.0.iter().filter(|one| names.iter().any(|name| one.has(name)));
-            any.map(|one| one.probability).sum::<f64>() >= NAMED
-        };
+        let probable = |one: &&A| self.probability_of_any(&names(one)) >= NAMED;
         match self.best() {
             Some(best) if best.is_physics() => best.told.additions.iter().filter(probable).cloned().collect(),
             _ => Vec::new(),

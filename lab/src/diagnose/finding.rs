@@ -76,7 +76,7 @@ impl FindingBuilder<'_> {
             gain: winner.gain(),
             chi_square: 2.0 * (winner.gain() + winner.addition.freedom()),
             sigma: sigma(winner.q_value),
-            probability: explanations.probability(&cause),
+            probability: explanations.probability_of_any(&winner.addition.names(self.hypothesis.data, false)),
             certainty: explanations.certainty(&cause),
             lack_of_fit: self.lack_of_fit(winner),
             not_separable: self.final_part(&cause).map(FittedPart::not_separable).unwrap_or_default(),
@@ -92,7 +92,9 @@ impl FindingBuilder<'_> {
             explanation: String::new(),
             cause,
         };
-        finding.explanation = explain(&finding, observable);
+        let level = self.final_curve(winner).filter(|curve| curve.form.sides.is_empty());
+        finding.explanation =
+            level.map_or_else(|| explain(&finding, observable), |level| explain_level(level, observable));
         finding
     }
 
@@ -223,6 +225,20 @@ pub(super) fn group_words(name: &str) -> Option<String> {
     Some(format!("group {} = {}", group.name, group.formula))
 }
 
+/// The explanation of a level for a reader.
+fn explain_level(level: &ColumnCurve, observable: Observable) -> String {
+    let shift = level.heights.first().copied().unwrap_or(0.0);
+    let from_model = match level.form.multiplicative {
+        true => format!("are {:.3} times those of the model", 1.0 + shift),
+        false if shift < 0.0 => format!("lie {:.3} below the model", -shift),
+        false => format!("lie {shift:.3} above the model"),
+    };
+    format!(
+        "All readings of the {} {from_model}: an error of the instrument, or a wrong level of the model.",
+        observable.title()
+    )
+}
+
 /// The explanation of a finding for a reader.
 fn explain(finding: &Finding, observable: Observable) -> String {
     let Finding { cause, variables, indistinguishable_from, .. } = finding;
@@ -234,9 +250,15 @@ fn explain(finding: &Finding, observable: Observable) -> String {
             [_, _, ..] => format!("columns {}", columns.join(" and ")),
             _ => format!("column {}", columns.join("")),
         });
-        let text = format!(
-            "The {quantity} depends on the {noun}. No effect of the library explains this dependence."
-        );
+        let is_law = |name: &&String| EFFECTS.iter().any(|effect| effect.id == **name);
+        let laws: Vec<&str> = indistinguishable_from.iter().filter(is_law).map(String::as_str).collect();
+        let text = match laws.as_slice() {
+            [] => "No effect of the library explains this dependence.".to_owned(),
+            laws => {
+                format!("{} may explain this dependence: these data do not exclude it.", laws.join(" or "))
+            }
+        };
+        let text = format!("The {quantity} depends on the {noun}. {text}");
         return finding.forms.iter().fold(text, |text, form| text + &equation(form));
     }
     let about = EFFECTS.iter().find(|effect| effect.id == cause).map_or("", |effect| effect.about);

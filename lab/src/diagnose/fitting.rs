@@ -6,7 +6,6 @@
 //! rest. A candidate's gain is that of its fit in log likelihood, less its number of parameters
 //! (Akaike 1974).
 
-use nearwall::effect::EFFECTS;
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
@@ -190,8 +189,10 @@ impl<'a> CandidateRound<'a> {
         let some = self.search.select(&(0..self.search.rows.len().min(COARSE_ROWS)).collect::<Vec<_>>());
         let rounds = 20 * blank.at.len() as u64 + 5;
         let coarse = |at: &[f64]| cost(&joint, &at_new(at), &some);
+        // Those with a large t and those with a gain lie in other valleys; of a grid the best two are enough.
+        let count = if refined { 2 } else { starts.len() };
         let descents =
-            best_of(coarse, starts, 2).into_iter().map(|start| descend(coarse, &start, 0.1, rounds));
+            best_of(coarse, starts, count).into_iter().map(|start| descend(coarse, &start, 0.1, rounds));
         let (start, _) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
         let (at, _) = descend(|at| cost(&joint, &at_new(at), &self.search), &start, 0.06, rounds);
         let joint = joint.with_coordinates(&at_new(&at));
@@ -245,7 +246,10 @@ impl<'a> CandidateRound<'a> {
         let of = self.hypothesis;
         let is_capture = |curve: &ColumnCurve| curve.form.observable == Observable::Capture;
         if is_capture(&free)
-            && (!of.parts.is_empty() || of.curves.iter().any(is_capture) || self.has_law(&free))
+            && (free.form.sides.is_empty()
+                || !of.parts.is_empty()
+                || of.curves.iter().any(is_capture)
+                || !free.form.laws(self.data()).is_empty())
         {
             return free;
         }
@@ -256,12 +260,6 @@ impl<'a> CandidateRound<'a> {
             form > worth(gain, free.freedom)
         });
         better.unwrap_or(free)
-    }
-
-    /// Whether an effect of the library depends on the column of a curve alone: its law is the form over it.
-    fn has_law(&self, curve: &ColumnCurve) -> bool {
-        let columns = curve.form.columns(self.data());
-        EFFECTS.iter().any(|effect| effect.inputs.iter().eq(columns.iter()))
     }
 
     /// A constant of captures; the parts are refitted beside a ceiling, without which they are too wide.

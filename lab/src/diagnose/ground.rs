@@ -30,6 +30,8 @@ pub(super) struct Ground {
     pub open: bool,
     /// The share of gross errors, where it is larger than expected [1].
     pub gross_errors: Option<f64>,
+    /// Whether tails are heavy.
+    pub heavy_tails: bool,
 }
 
 impl Ground {
@@ -45,6 +47,7 @@ impl Ground {
             log_prior: 0.0,
             open: true,
             gross_errors: None,
+            heavy_tails: false,
         }
     }
 
@@ -71,6 +74,8 @@ const UNSTATED: [&str; 3] = ["v_n", "v_t", "d"];
 const SHARES: [f64; 8] = [0.02, 0.03, 0.05, 0.07, 0.1, 0.15, 0.2, 0.3];
 /// Shares of gross errors beside the expected one [1].
 const RUBBISH: [f64; 2] = [0.1, 0.25];
+/// Share of readings in a heavy tail, where there is one [1].
+const TAILS: f64 = 0.25;
 /// With fewer readings, and beside stated errors, a row that looks like a gross error is evidence.
 const LEAST_WITH_RUBBISH: f64 = 12.0;
 
@@ -92,19 +97,36 @@ pub(super) fn grounds(
         (false, false) => &[],
     };
     all.extend(shares.iter().map(|share| with_rubbish(data, *share)));
+    all.extend(possible.then(|| with_tails(data)));
     // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
     all.extend(unstated_errors(data, &searched, evidence));
-    let others: Vec<OtherReading> = slips(&data.base, text).into_iter().chain(readings(data)).collect();
-    let read = others.iter().filter_map(|other| {
-        let near = |value: f64| other.near(value);
-        best(data, &searched, other.values.clone(), near, evidence, &|data, value| read(data, other, value))
-    });
-    let skewed = skewed(data);
-    let read = read.chain((worth(&skewed, evidence) > 0.0).then_some(skewed));
-    let log_prior = Class::Rival.log_prior(others.len() + 1);
-    all.extend(read.map(|ground| Ground { log_prior, ..ground }));
+    all.extend(rivals(data, &searched, text, evidence));
     all
+}
+
+/// The other readings that have more evidence than the rows as they are. Slips and instruments are two kinds, as likely
+/// as each other; scatter to one side is an instrument's.
+fn rivals(data: &DataSplit, searched: &DataSplit, text: &str, evidence: Evidence) -> Vec<Ground> {
+    let (slips, readings) = (slips(&data.base, text), readings(data));
+    let best_of = |others: &[OtherReading]| -> Vec<Ground> {
+        let best = |other: &OtherReading| {
+            let near = |value: f64| other.near(value);
+            best(data, searched, other.values.clone(), near, evidence, &|data, value| {
+                read(data, other, value)
+            })
+        };
+        others.iter().filter_map(best).collect()
+    };
+    let skewed = skewed(data);
+    let mut instruments = best_of(&readings);
+    instruments.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
+    let kinds = [(slips.len(), best_of(&slips)), (readings.len() + 1, instruments)];
+    let with_prior = |(count, found): (usize, Vec<Ground>)| {
+        let log_prior = Class::Rival.log_prior(count);
+        found.into_iter().map(move |ground| Ground { log_prior, ..ground })
+    };
+    kinds.into_iter().flat_map(with_prior).collect()
 }
 
 /// Log evidence of the base model on a ground over that on the rows as they are [nats].
@@ -202,6 +224,15 @@ fn with_rubbish(data: &DataSplit, share: f64) -> Ground {
     Ground { key, data: changed, freedom: 1.0, gross_errors: Some(share), ..Ground::plain(data) }
 }
 
+/// The rows with readings in a heavy tail.
+fn with_tails(data: &DataSplit) -> Ground {
+    let tails = |offset: &Offset| Offset { tails: TAILS, ..*offset };
+    let noise: Vec<Offset> = data.noise.iter().map(tails).collect();
+    let changed = DataSplit { noise: noise.into(), ..data.clone() };
+    let key = "heavy-tails".to_owned();
+    Ground { key, data: changed, freedom: 1.0, heavy_tails: true, ..Ground::plain(data) }
+}
+
 /// The rows read otherwise; `None` where a row has no such reading.
 fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
     let base = other.model.clone().unwrap_or_else(|| data.base.clone());
@@ -222,5 +253,6 @@ fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
         log_prior: 0.0,
         open: true,
         gross_errors: None,
+        heavy_tails: false,
     })
 }

@@ -67,6 +67,25 @@ pub(super) struct Hypothesis<'a> {
     pub scatter: Scatter,
 }
 
+/// Rows with levels as they fit these predictions best, and those levels.
+pub(super) fn with_levels<'a>(
+    rows: Evaluation<'a>,
+    levels: &[ColumnCurve],
+) -> (Evaluation<'a>, Vec<ColumnCurve>) {
+    let mut rows = rows;
+    let mut fitted = Vec::new();
+    for level in levels {
+        // Beside a scatter without the level its residuals would look like gross errors.
+        let wide = rows.clone().with_fitted_scatter();
+        let level = level.again(&wide).unwrap_or_else(|| level.clone());
+        let mut offsets = rows.offsets.to_vec();
+        level.add_to(&mut offsets, &rows);
+        rows = rows.with_offsets(offsets);
+        fitted.push(level);
+    }
+    (rows, fitted)
+}
+
 impl<'a> Hypothesis<'a> {
     /// The base model with these parts.
     pub fn with_parts(data: &'a DataSplit, parts: Vec<FittedPart>, scatter: Scatter) -> Self {
@@ -197,16 +216,23 @@ impl<'a> Hypothesis<'a> {
     pub fn fit(&mut self, rows: &[usize]) {
         self.fit_rate(rows);
         for _ in 0..if self.curves.is_empty() { 1 } else { 2 } {
+            // Laws take on a level as far as they can: it is fitted anew beside each of their values.
+            let (levels, curves): (Vec<_>, Vec<_>) =
+                std::mem::take(&mut self.curves).into_iter().partition(ColumnCurve::is_level);
+            self.curves = curves;
             let offsets = self.offsets();
             let start = self.coordinates();
             if !start.is_empty() {
                 let cost = |at: &[f64]| {
-                    -self.with_coordinates(at).evaluate(rows, &offsets).with_fitted_scatter().score()
+                    let rows = self.with_coordinates(at).evaluate(rows, &offsets);
+                    -with_levels(rows, &levels).0.with_fitted_scatter().score()
                 };
                 let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
                 *self = self.with_coordinates(&at);
             }
-            self.set_noise(self.evaluate(rows, &offsets));
+            let (fitted, levels) = with_levels(self.evaluate(rows, &offsets), &levels);
+            self.set_noise(fitted);
+            self.curves.extend(levels);
             for place in 0..self.curves.len() {
                 let curve = self.curves.remove(place);
                 let fitted = curve.again(&self.evaluate(rows, self.offsets()).with_fitted_scatter());

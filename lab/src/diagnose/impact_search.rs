@@ -10,10 +10,12 @@ use std::collections::BTreeMap;
 use super::candidate::{Addition, Candidate, Class, FURTHER, SAME_CAUSE, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
+use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::explanation::{Evidence, Explained, Explanation};
 use super::fitting::CandidateRound;
 use super::ground::Ground;
+use super::hidden_laws::{HiddenLaw, hidden_laws, levels};
 use super::hypothesis::Hypothesis;
 use super::likelihood::SMALLEST_SCATTER;
 use super::observable::Observable;
@@ -168,6 +170,55 @@ impl<'a> ImpactSearch<'a> {
         with.collect()
     }
 
+    /// Laws with a level of `e_n` or `e_t` that adds or multiplies, fitted together: a law takes on a level as far as
+    /// it can, so that the level gains nothing beside the law as it is; and a level may hide a law.
+    fn with_levels(
+        &self,
+        of: &ImpactExplanation<'a>,
+        list: &[Candidate],
+        prior: &dyn Fn(Class, usize) -> f64,
+    ) -> Vec<ImpactExplanation<'a>> {
+        let hypothesis = &of.fitted.hypothesis;
+        let levels = levels(list);
+        if hypothesis.is_stochastic() || self.has_shared_errors(of, &levels) {
+            return Vec::new();
+        }
+        let share = 1.0 / of.scores.len().max(1) as f64;
+        let unproven = |addition: Addition, joined: usize| {
+            let prior = prior(addition.class(hypothesis.data), joined);
+            let differences = vec![-share * addition.freedom(); of.scores.len()];
+            ScoredCandidate::unproven(addition, differences, prior)
+        };
+        let level = |curve| Addition::Curve(curve);
+        if !hypothesis.parts.is_empty() {
+            let with = |curve| self.refitted(of, self.beside(of, unproven(level(curve), 0)));
+            return levels.into_iter().map(with).collect();
+        }
+        if !of.fitted.found.is_empty() {
+            return Vec::new();
+        }
+        let with = |HiddenLaw { law, level: curve, .. }| {
+            let law = unproven(Addition::Part { part: law, others: Vec::new() }, 0);
+            self.refitted(of, self.beside(&self.beside(of, law), unproven(level(curve), 1)))
+        };
+        hidden_laws(hypothesis, list, self.refitted).into_iter().map(with).collect()
+    }
+
+    /// Whether errors that groups share explain more than independent ones beside a level: their mean looks like one.
+    fn has_shared_errors(&self, of: &ImpactExplanation<'a>, levels: &[ColumnCurve]) -> bool {
+        let mut centred = of.fitted.hypothesis.clone();
+        for level in levels.iter().filter(|level| !level.form.multiplicative) {
+            let rows = centred.evaluate(&*centred.data.search, centred.offsets()).with_fitted_scatter();
+            centred.curves.extend(level.again(&rows));
+        }
+        let evidence = |ground: &Ground| {
+            let hypothesis = Hypothesis { data: &ground.data, ..centred.clone() };
+            self.evidence.gain(ground.scores(&hypothesis).iter().sum(), ground.freedom)
+        };
+        let plain = evidence(&self.grounds[0]);
+        self.grounds.iter().any(|ground| ground.key.starts_with("groups:") && evidence(ground) > plain)
+    }
+
     /// The explanation with errors that groups share.
     fn grouped(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
         if of.fitted.ground != 0 {
@@ -235,6 +286,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         let rest = all.split_off(all.len().min(self.refitted));
         let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(below);
         let mut found: Vec<_> = refitted.chain(rest).collect();
+        found.extend(self.with_levels(of, &list, &prior));
         let at_bound =
             |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
         found.retain(|new| !at_bound(&new.fitted.hypothesis));

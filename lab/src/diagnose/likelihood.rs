@@ -2,7 +2,8 @@
 //!
 //! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a
 //! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.8`, where the second
-//! term is uniform over a width of 1.25. So a few outliers cannot decide for or against a cause. A
+//! term is uniform over a width of 1.25. So a few outliers cannot decide for or against a cause. Where tails are
+//! heavy, a quarter of the readings is normal with four times the scatter instead (contaminated normal; Tukey 1960). A
 //! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995; a single impact with
 //! `e_n` above 0 is a rebound whether or not an outcome is stated. Under a stochastic model, and
 //! where a row does not state all inputs, the probability of a row is the mean over its predictions.
@@ -17,6 +18,8 @@ use crate::dataset::{Limit, Measurement, Reading};
 pub(super) const GROSS_SHARE: f64 = 0.02;
 /// Density of a gross error [1]: uniform over a width of 1.25.
 pub(super) const GROSS_DENSITY: f64 = 0.8;
+/// Scatter of a reading in a heavy tail, over that of the others [1].
+const TAIL_WIDTH: f64 = 4.0;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.
 const NEGLIGIBLE_DISTANCE: f64 = 8.0;
 /// A prediction is at most this many standard deviations beyond a limit: the tail's probability is still a number.
@@ -52,6 +55,8 @@ pub(super) struct Offset {
     pub noted: bool,
     /// Expected share of gross errors [1].
     pub gross: f64,
+    /// Expected share of readings in a heavy tail [1].
+    pub tails: f64,
 }
 
 impl Default for Offset {
@@ -66,6 +71,7 @@ impl Default for Offset {
             visible_from: f64::NEG_INFINITY,
             noted: false,
             gross: GROSS_SHARE,
+            tails: 0.0,
         }
     }
 }
@@ -198,29 +204,47 @@ fn normal_density(residual: f64, deviation: f64) -> f64 {
     (-0.5 * z * z).exp() / (deviation * (2.0 * std::f64::consts::PI).sqrt())
 }
 
-/// Density of a residual, and its part without gross errors, of which a share `gross` is expected.
-/// Without gross errors a far residual keeps the density of a normal distribution.
-fn densities(residual: f64, deviation: f64, gross: f64) -> (f64, f64) {
-    let normal = (1.0 - gross) * normal_density(residual, deviation);
-    (normal + (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE), normal)
+/// Densities of a residual [1]: of the normal part, of the heavy tail, and of gross errors. Without gross errors a far
+/// residual keeps the density of a normal distribution.
+fn densities(residual: f64, deviation: f64, offset: &Offset) -> [f64; 3] {
+    let Offset { gross, tails, .. } = *offset;
+    let tail = if tails > 0.0 { tails * normal_density(residual, TAIL_WIDTH * deviation) } else { 0.0 };
+    let normal = (1.0 - gross - tails) * normal_density(residual, deviation);
+    [normal, tail, (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE)]
+}
+
+/// Density of a residual [1].
+fn density(residual: f64, deviation: f64, offset: &Offset) -> f64 {
+    densities(residual, deviation, offset).iter().sum()
 }
 
 /// Log density of a residual.
-fn log_density(residual: f64, deviation: f64, gross: f64) -> f64 {
-    if gross > 0.0 {
-        return densities(residual, deviation, gross).0.ln();
+fn log_density(residual: f64, deviation: f64, offset: &Offset) -> f64 {
+    if offset.gross > 0.0 || offset.tails > 0.0 {
+        return density(residual, deviation, offset).ln();
     }
     let z = residual / deviation;
     -0.5 * z * z - deviation.ln() - 0.5 * std::f64::consts::TAU.ln()
 }
 
-/// Probability that a residual is no gross error.
-pub(super) fn regular(residual: f64, deviation: f64, gross: f64) -> f64 {
-    if gross <= 0.0 {
-        return 1.0;
+/// What a residual tells of the prediction.
+pub(super) struct Weight {
+    /// Probability that it is no gross error [1].
+    pub regular: f64,
+    /// Its expected inverse variance, in those of the scatter [1].
+    pub precision: f64,
+}
+
+impl Weight {
+    pub fn of(residual: f64, deviation: f64, offset: &Offset) -> Self {
+        if offset.gross <= 0.0 && offset.tails <= 0.0 {
+            return Self { regular: 1.0, precision: 1.0 };
+        }
+        let [normal, tail, gross] = densities(residual, deviation, offset);
+        let all = normal + tail + gross;
+        let precision = (normal + tail / TAIL_WIDTH.powi(2)) / all;
+        Self { regular: (normal + tail) / all, precision }
     }
-    let (density, normal) = densities(residual, deviation, gross);
-    normal / density
 }
 
 /// The part of a normal distribution that an instrument does not see.
@@ -250,14 +274,14 @@ impl Hidden {
 
 /// Density of a reading that the instrument sees.
 fn visible_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
-    let whole = densities(residual, deviation, offset.gross).0;
+    let whole = density(residual, deviation, offset);
     Hidden::of(expected, deviation, offset.visible_from)
         .map_or(whole, |hidden| whole / (1.0 - (1.0 - offset.gross) * hidden.share))
 }
 
 /// Log density of a reading that the instrument sees.
 fn visible_log_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
-    let whole = log_density(residual, deviation, offset.gross);
+    let whole = log_density(residual, deviation, offset);
     Hidden::of(expected, deviation, offset.visible_from)
         .map_or(whole, |hidden| whole - (1.0 - (1.0 - offset.gross) * hidden.share).ln())
 }
@@ -482,7 +506,7 @@ fn own_square(
         let square = own_square(censored.square + offset.uncertainty[which], 1.0);
         return (censored.probability, [weight * square, weight]);
     }
-    let weight = regular(residual, width, offset.gross) * share;
+    let Weight { regular, precision } = Weight::of(residual, width, offset);
     let limited = limited(offset, which);
     let seen = residual * residual + offset.uncertainty[which];
     let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
@@ -493,7 +517,7 @@ fn own_square(
         }
     };
     let density = visible_density(residual, expected, width, &limited);
-    (density, [weight * own_square(square, rows), weight * rows])
+    (density, [share * own_square(precision * square, regular * rows), share * regular * rows])
 }
 
 #[cfg(test)]
@@ -554,6 +578,23 @@ mod tests {
             assert!((found.information / 100.0 - 1.0).abs() < 2e-3, "{found:?}");
         }
         assert!(Censored::new(&stated, 4.0, 0.1, 0.02).slope.abs() < 1e-9, "a gross error has no slope");
+    }
+
+    /// Three quarters of the density are normal with the scatter, a quarter with four times that; and what the weight
+    /// says of a residual is the slope of the log density in units of the normal one.
+    #[test]
+    fn a_heavy_tail_has_its_density_and_its_weight() {
+        let tails = Offset { tails: 0.25, ..exact() };
+        let laws = [0.1, 0.4].map(|width| Normal::new(0.5, width).unwrap());
+        let expected = |value: f64| (0.75 * laws[0].pdf(value) + 0.25 * laws[1].pdf(value)).ln();
+        let score = |value: f64| log_density(value - 0.5, 0.1, &tails);
+        for value in [0.5, 0.58, 0.75, 1.1] {
+            assert!((score(value) - expected(value)).abs() < 1e-9, "{value}");
+            let slope = (expected(value + 1e-6) - expected(value - 1e-6)) / 2e-6;
+            let weight = Weight::of(value - 0.5, 0.1, &tails);
+            assert!((slope + weight.precision * (value - 0.5) / 0.01).abs() < 1e-4, "{value}");
+            assert!((weight.regular - 1.0).abs() < 1e-9);
+        }
     }
 
     #[test]

@@ -38,6 +38,7 @@ mod goodness_of_fit;
 mod ground;
 mod group_column;
 mod groups;
+mod hidden_laws;
 mod hypothesis;
 mod impact_diagnosis;
 mod impact_search;

@@ -163,6 +163,16 @@ pub(super) enum Part {
 }
 
 impl Part {
+    /// What a base model may lack: the effects that it does not have, and other values of its numbers. The effect
+    /// `sliding-to-rolling` beside the law of that name is another friction of it.
+    pub fn all(base: &Model) -> Vec<Self> {
+        let rolls = matches!(base.tangential_law(), TangentialLaw::SlidingRolling { .. });
+        let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
+        let is_open = |id: &str| !has(id) && (id != "sliding-to-rolling" || !rolls);
+        let effects = EFFECTS.into_iter().filter(|effect| is_open(effect.id)).map(Self::Effect);
+        effects.chain(LawParameter::all(base).into_iter().map(Self::LawParameter)).collect()
+    }
+
     /// An effect's id, or the key of a law's parameter.
     pub fn name(&self) -> String {
         match self {

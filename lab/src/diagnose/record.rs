@@ -71,6 +71,8 @@ pub struct Diagnosis {
     pub capture_ceiling: Option<f64>,
     /// Share of the readings that lie far from any model, about which nothing is known [1]; `None` where it is small.
     pub gross_errors: Option<f64>,
+    /// Whether the readings scatter with heavy tails: about a quarter of them four times as far as the others.
+    pub heavy_tails: bool,
     /// Captures that neither the base model nor a cause nor a column explains.
     pub unexplained_capture: Option<Unexplained>,
     /// The gain on held-out rows in the observable of the first finding.

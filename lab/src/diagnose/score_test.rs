@@ -21,7 +21,7 @@ use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// Draws of random signs.
 const SIGN_DRAWS: usize = 400;
-/// Shapes from which fits start.
+/// Shapes from which fits start: with the largest `t`, and with the largest gain.
 const STARTS: usize = 2;
 /// Shapes whose p-values are computed: those with the largest `t`.
 const TESTED_SHAPES: usize = 10;
@@ -37,8 +37,10 @@ pub(super) struct Shapes {
     pub at: Vec<Vec<f64>>,
     /// The number `u` of each row of the search, by shape.
     pub scores: Vec<Vec<f64>>,
-    /// Gain in log likelihood at each shape [nats], for candidates that change the distribution rather than the mean.
+    /// Gain in log likelihood at each shape at its full size [nats]; none for shapes without a size.
     pub gains: Vec<f64>,
+    /// Whether the candidate changes the distribution rather than the mean.
+    pub is_random: bool,
 }
 
 /// The result for one candidate.
@@ -50,7 +52,7 @@ pub(super) struct Tested {
     pub tests: f64,
     /// Largest of [`Shapes::gains`] [nats].
     pub gain: f64,
-    /// Places of the shapes with the largest `t` or gain, the best first.
+    /// Places of the shapes with the largest `t`, and of those with the largest gain.
     pub starts: Vec<Vec<f64>>,
 }
 
@@ -82,8 +84,16 @@ fn one(shapes: &Shapes, sums: &[Vec<f64>], tests: f64, skewed: bool) -> Tested {
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut by_gain: Vec<(usize, f64)> = shapes.gains.iter().copied().enumerate().collect();
     by_gain.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let best = if by_gain.is_empty() { &order } else { &by_gain };
-    let starts = best.iter().take(STARTS).filter_map(|&(shape, _)| shapes.at.get(shape).cloned()).collect();
+    // A large t may lie beyond a valley that is narrow, and a gain before one. Of a distribution, of which
+    // fits take long, the t may be that of a few rows.
+    let by_t = &order[..if shapes.is_random { 0 } else { order.len().min(STARTS) }];
+    let best = by_t.iter().chain(by_gain.iter().take(STARTS)).map(|(shape, _)| *shape);
+    let mut starts: Vec<Vec<f64>> = Vec::new();
+    for start in best.filter_map(|shape| shapes.at.get(shape)) {
+        if !starts.contains(start) {
+            starts.push(start.clone());
+        }
+    }
     let p = if skewed {
         // Of shapes that rest on few units a smaller t may be the better evidence.
         let chance =

@@ -22,6 +22,10 @@ pub(super) struct SearchAxis {
 
 /// A coordinate nearer than this to 0 or 1 is at an end.
 const AT_END: f64 = 0.005;
+/// A coordinate that the data leave open within this distance of an end goes to it, not to the end,
+const EDGE: f64 = 0.1;
+/// which costs this much [nats]: one standard error.
+const EDGE_COST: f64 = 0.5;
 
 impl SearchAxis {
     /// A linear axis.
@@ -78,7 +82,7 @@ impl SearchAxis {
     }
 }
 
-/// A cost with a penalty outside 0 to 1, for argmin.
+/// A cost with a penalty outside 0 to 1 and a small one near the ends, for argmin.
 struct Bounded<F>(F);
 
 impl<F: Fn(&[f64]) -> f64> CostFunction for Bounded<F> {
@@ -88,7 +92,9 @@ impl<F: Fn(&[f64]) -> f64> CostFunction for Bounded<F> {
     fn cost(&self, at: &Self::Param) -> Result<f64, Error> {
         let outside: f64 = at.iter().map(|c| (c - c.clamp(0.0, 1.0)).abs()).sum();
         let cost = (self.0)(at);
-        Ok(if cost.is_finite() { cost + 1e3 * outside } else { 1e30 })
+        let near = |c: &f64| (1.0 - c.min(1.0 - c) / EDGE).clamp(0.0, 1.0);
+        let edges: f64 = at.iter().map(near).sum();
+        Ok(if cost.is_finite() { cost + 1e3 * outside + EDGE_COST * edges } else { 1e30 })
     }
 }
 
@@ -156,5 +162,16 @@ mod tests {
         let start = best_of(cost, &places, 1).remove(0);
         let (at, _) = descend(cost, &start, 0.1, 200);
         assert!((at[0] - 0.31).abs() < 0.02 && at[1] > 0.99, "{at:?}");
+    }
+
+    /// Steps that are as sharp as the distance of two readings: all narrower ones fit alike.
+    #[test]
+    fn where_the_data_leave_the_end_open_a_coordinate_is_not_at_it() {
+        let axis = SearchAxis::linear(0.0, 1.0);
+        let flat = |x: &[f64]| 50.0 * (x[0] - 0.1).max(0.0) + 1e3 * (x[1] - 0.4).powi(2);
+        let (at, _) = descend(flat, &[0.05, 0.45], 0.1, 200);
+        assert!(!axis.is_at_end(at[0]) && at[0] < 0.11, "{at:?}");
+        let steep = |x: &[f64]| 60.0 * x[0];
+        assert!(axis.is_at_end(descend(steep, &[0.05], 0.1, 200).0[0]));
     }
 }

@@ -22,6 +22,9 @@ pub(super) struct Words {
     pub carries: &'static str,
 }
 
+/// The cause of readings that all lie as far from the model.
+pub(super) const LEVEL_SHIFT: &str = "level-shift";
+
 /// The words for measured impacts.
 const IMPACTS: Words = Words {
     subject: "model",
@@ -73,6 +76,10 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             100.0 * share
         );
     }
+    if diagnosis.heavy_tails {
+        text += " The scatter has heavy tails: about a quarter of the readings lie some four times as far from \
+                 the model as the others. Look at the largest residuals.";
+    }
     if let Some(groups) = &diagnosis.groups {
         text += &format!(
             " Rows of one {} share an error ({} groups): an effect must be seen beside it.",
@@ -98,6 +105,7 @@ pub(super) fn found(diagnosis: &Diagnosis, words: &Words, nothing: impl FnOnce()
         let name = match finding.cause.split_once(':') {
             Some(("unknown", column)) => format!("a dependence on {}", column.replace('*', " and ")),
             Some(("level", what)) => format!("a shift of {what}"),
+            None if finding.cause == LEVEL_SHIFT => format!("a constant shift of {}", finding.observable),
             _ => finding.cause.clone(),
         };
         match finding.indistinguishable_from.as_slice() {

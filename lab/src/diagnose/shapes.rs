@@ -1,5 +1,7 @@
 //! The shapes of candidates: how each would change the log score of every row, to first order in its amplitude.
 
+use std::sync::Arc;
+
 use super::candidate::Candidate;
 use super::constant_capture::CaptureConstant;
 use super::curve::ColumnCurveForm;
@@ -77,12 +79,11 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         let both_signs = matches!(part, Part::LawParameter(_));
         let at = grid(blank.axes.len(), GRID_STEPS[blank.axes.len().min(GRID_STEPS.len() - 1)]);
         let place = |at: &Vec<f64>| FittedPart { at: at.clone(), ..blank.clone() };
-        if part.is_stochastic() {
-            let (scores, gains) = at.iter().map(|at| self.of_distribution(&place(at))).unzip();
-            return Shapes { both_signs, at, scores, gains };
-        }
-        let scores = at.iter().map(|at| self.of_place(&place(at))).collect();
-        Shapes { both_signs, at, scores, gains: Vec::new() }
+        let of = |at: &Vec<f64>| {
+            if part.is_stochastic() { self.of_distribution(&place(at)) } else { self.of_place(&place(at)) }
+        };
+        let (scores, gains) = at.iter().map(of).unzip();
+        Shapes { both_signs, at, scores, gains, is_random: part.is_stochastic() }
     }
 
     /// The hypothesis with a part more.
@@ -101,8 +102,8 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
         (scores.iter().zip(&self.scores).map(ratio).collect(), gain)
     }
 
-    /// The shape of a part at one place.
-    fn of_place(&self, part: &FittedPart) -> Vec<f64> {
+    /// The shape of a part at one place, and its gain.
+    fn of_place(&self, part: &FittedPart) -> (Vec<f64>, f64) {
         let changed = self.with(part);
         let forecast = Forecast::of_data(&changed.model(), self.search.data, &self.search.rows);
         let one = |(place, slope): (usize, &Slope)| {
@@ -112,7 +113,11 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
                 + slope.restitution[1] * change(1)
                 + slope.capture * (after.capture - before.capture)
         };
-        self.slopes.iter().enumerate().map(one).collect()
+        let scores = self.slopes.iter().enumerate().map(one).collect();
+        let Evaluation { data, rows, offsets, scatter, captures, .. } = self.search;
+        let evaluation = Evaluation::of_forecast(data, Arc::new(forecast), &**rows, &**offsets, *scatter);
+        let gain = evaluation.with_captures(*captures).score() - self.scores.iter().sum::<f64>();
+        (scores, gain)
     }
 
     fn of_curve(&self, sides: [Option<usize>; 2], observable: Observable) -> Shapes {
@@ -146,7 +151,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
             function.iter().enumerate().map(|(place, f)| slope(place) * (f - mean)).collect::<Vec<f64>>()
         };
         let scores: Vec<Vec<f64>> = functions.iter().map(centred).collect();
-        Shapes { both_signs: true, at: vec![Vec::new(); scores.len()], scores, gains: Vec::new() }
+        Shapes { both_signs: true, at: vec![Vec::new(); scores.len()], scores, ..Shapes::default() }
     }
 
     /// The slope by the log odds of capture.
@@ -225,7 +230,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
             z[row] * (excess(0) + excess(1))
         };
         let scores = vec![squares.iter().zip(self.search.rows.iter()).map(one).collect()];
-        Shapes { both_signs: true, at: vec![Vec::new()], scores, gains: Vec::new() }
+        Shapes { both_signs: true, at: vec![Vec::new()], scores, ..Shapes::default() }
     }
 
     fn of_constant(&self, constant: CaptureConstant) -> Shapes {
@@ -239,7 +244,7 @@ impl<'a, 'b> ShapeBuilder<'a, 'b> {
             both_signs: constant == CaptureConstant::Rate,
             at: vec![Vec::new()],
             scores,
-            gains: Vec::new(),
+            ..Shapes::default()
         }
     }
 }

@@ -79,6 +79,7 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         not_examined: not_examined(&data.base, |input| data.range(input), "in the data"),
         capture_ceiling: hypothesis.captures.ceiling,
         gross_errors: choice.gross_errors,
+        heavy_tails: choice.heavy_tails,
         unexplained_capture: hypothesis.captures.has(CaptureConstant::Rate).then(|| {
             let [measured, expected] = captured_shares(hypothesis);
             Unexplained { measured, expected }

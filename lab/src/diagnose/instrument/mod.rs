@@ -2,6 +2,7 @@
 
 mod drag;
 mod drift;
+mod projection;
 mod tilt;
 mod unseen;
 
@@ -12,8 +13,9 @@ use super::reading::OtherReading;
 type Reading = fn(&DataSplit) -> Option<OtherReading>;
 
 /// All of them.
-pub(super) const ALL: [Reading; 7] = [
+pub(super) const ALL: [Reading; 8] = [
     tilt::reading,
+    projection::reading,
     drag::reading,
     drift::of_e_n,
     drift::of_e_t,

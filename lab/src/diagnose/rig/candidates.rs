@@ -7,7 +7,7 @@ use super::form::RigForm;
 use super::inputs::RigInputs;
 use super::noise::Data;
 use crate::rig::{FARTHEST, Forward};
-use nearwall::effect::{CurveTarget, EFFECTS};
+use nearwall::effect::CurveTarget;
 
 /// How far beyond the range of an input a law's place is searched, as a share of the range.
 const SEARCH_BEYOND: f64 = 0.5;
@@ -25,9 +25,6 @@ fn acts(forward: &dyn Forward, number: usize) -> bool {
 /// Everything that could be added.
 pub(super) fn candidates(forward: &dyn Forward, inputs: &RigInputs, data: &Data) -> Vec<RigAddition> {
     let base = forward.base(0);
-    let has = |id: &str| base.terms().iter().any(|term| term.kind().id == id);
-    let effects = EFFECTS.into_iter().filter(|effect| !has(effect.id)).map(Part::Effect);
-    let parts = effects.chain(LawParameter::all(base).into_iter().map(Part::LawParameter));
     // A transition may begin within the range of the data and have its middle beyond.
     let wider = |input: &str| {
         let [low, high] = inputs.range(input)?;
@@ -37,7 +34,8 @@ pub(super) fn candidates(forward: &dyn Forward, inputs: &RigInputs, data: &Data)
     // A layer or a film that is the same in all experiments acts nevertheless.
     let wider =
         |input: &str| wider(input).or_else(|| inputs.present(input).map(|value| [0.5 * value, 2.0 * value]));
-    let mut all: Vec<RigAddition> = parts.filter_map(|part| RigAddition::part(part, wider)).collect();
+    let mut all: Vec<RigAddition> =
+        Part::all(base).into_iter().filter_map(|part| RigAddition::part(part, wider)).collect();
     let numbers =
         forward.case_numbers().iter().cloned().enumerate().filter(|(place, _)| acts(forward, *place));
     all.extend(numbers.map(|(place, number)| RigAddition::case(place, number)));
