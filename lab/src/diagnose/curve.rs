@@ -8,10 +8,11 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::sentences::LEVEL_SHIFT;
 use super::smooth::{Basis, Entry, Smoothed, product, ridge, sum};
 use nearwall::effect::{EFFECTS, EffectInfo};
 
+/// The cause of readings that all lie as far from the model.
+pub(super) const LEVEL_SHIFT: &str = "level-shift";
 /// Rounds of the iteratively reweighted fit of capture.
 const ROUNDS: usize = 5;
 /// Largest constant offset of capture [log odds].

@@ -92,7 +92,7 @@ impl FindingBuilder<'_> {
             explanation: String::new(),
             cause,
         };
-        let level = self.final_curve(winner).filter(|curve| curve.form.sides.is_empty());
+        let level = self.final_curve(winner).filter(|curve| curve.is_level());
         finding.explanation =
             level.map_or_else(|| explain(&finding, observable), |level| explain_level(level, observable));
         finding

@@ -218,19 +218,21 @@ fn with_input_errors(data: &DataSplit, errors: &Errors) -> Option<Ground> {
 /// The rows with a larger share of gross errors.
 fn with_rubbish(data: &DataSplit, share: f64) -> Ground {
     let gross = |offset: &Offset| Offset { gross: share, ..*offset };
-    let noise: Vec<Offset> = data.noise.iter().map(gross).collect();
-    let changed = DataSplit { noise: noise.into(), ..data.clone() };
     let key = format!("gross-errors:{share}");
-    Ground { key, data: changed, freedom: 1.0, gross_errors: Some(share), ..Ground::plain(data) }
+    Ground { key, gross_errors: Some(share), ..with_noise(data, gross) }
 }
 
 /// The rows with readings in a heavy tail.
 fn with_tails(data: &DataSplit) -> Ground {
     let tails = |offset: &Offset| Offset { tails: TAILS, ..*offset };
-    let noise: Vec<Offset> = data.noise.iter().map(tails).collect();
+    Ground { key: "heavy-tails".to_owned(), heavy_tails: true, ..with_noise(data, tails) }
+}
+
+/// The rows with another noise of one parameter.
+fn with_noise(data: &DataSplit, change: impl Fn(&Offset) -> Offset) -> Ground {
+    let noise: Vec<Offset> = data.noise.iter().map(change).collect();
     let changed = DataSplit { noise: noise.into(), ..data.clone() };
-    let key = "heavy-tails".to_owned();
-    Ground { key, data: changed, freedom: 1.0, heavy_tails: true, ..Ground::plain(data) }
+    Ground { data: changed, freedom: 1.0, ..Ground::plain(data) }
 }
 
 /// The rows read otherwise; `None` where a row has no such reading.

@@ -36,17 +36,17 @@ pub(super) fn levels(candidates: &[Candidate]) -> Vec<ColumnCurve> {
     forms.map(|form| ColumnCurve::constant(form, 0.0)).collect()
 }
 
-/// Those laws among candidates that explain most with a level, at most `count`, the best first.
+/// Those laws among candidates that explain most with one of these levels, at most `count`, the best first.
 pub(super) fn hidden_laws(
     hypothesis: &Hypothesis<'_>,
     candidates: &[Candidate],
+    levels: &[ColumnCurve],
     count: usize,
 ) -> Vec<HiddenLaw> {
-    let levels = levels(candidates);
     let rows = &hypothesis.data.search[..hypothesis.data.search.len().min(ROWS)];
     let search = hypothesis.evaluate(rows, hypothesis.offsets()).with_fitted_scatter();
     let of = |candidate: &Candidate| match candidate {
-        Candidate::Part(part) if !part.is_stochastic() => Some(on_grid(hypothesis, *part, &levels, &search)),
+        Candidate::Part(part) if !part.is_stochastic() => Some(on_grid(hypothesis, *part, levels, &search)),
         _ => None,
     };
     let best_first = |laws: &mut Vec<HiddenLaw>| laws.sort_by(|a, b| b.score.total_cmp(&a.score));
@@ -96,7 +96,8 @@ impl HiddenLaw {
         let rows = joint.evaluate(&*search.rows, &*search.offsets).with_scatter(search.scatter);
         let (rows, fitted) = with_levels(rows, std::slice::from_ref(level));
         let score = rows.with_fitted_scatter().score();
-        score.is_finite().then(|| Some(Self { law, level: fitted.into_iter().next()?, score }))?
+        let level = fitted.into_iter().next().filter(|_| score.is_finite())?;
+        Some(Self { law, level, score })
     }
 
     /// The same at the maximum nearby.

@@ -179,8 +179,9 @@ impl<'a> ImpactSearch<'a> {
         prior: &dyn Fn(Class, usize) -> f64,
     ) -> Vec<ImpactExplanation<'a>> {
         let hypothesis = &of.fitted.hypothesis;
-        let levels = levels(list);
-        if hypothesis.is_stochastic() || self.has_shared_errors(of, &levels) {
+        let (levels, is_base) = (levels(list), of.fitted.found.is_empty());
+        let has_laws = !hypothesis.parts.is_empty() && !hypothesis.is_stochastic();
+        if !(is_base || has_laws) || self.has_shared_errors(of, &levels) {
             return Vec::new();
         }
         let share = 1.0 / of.scores.len().max(1) as f64;
@@ -189,19 +190,15 @@ impl<'a> ImpactSearch<'a> {
             let differences = vec![-share * addition.freedom(); of.scores.len()];
             ScoredCandidate::unproven(addition, differences, prior)
         };
-        let level = |curve| Addition::Curve(curve);
-        if !hypothesis.parts.is_empty() {
-            let with = |curve| self.refitted(of, self.beside(of, unproven(level(curve), 0)));
+        if has_laws {
+            let with = |level| self.refitted(of, self.beside(of, unproven(Addition::Curve(level), 0)));
             return levels.into_iter().map(with).collect();
         }
-        if !of.fitted.found.is_empty() {
-            return Vec::new();
-        }
-        let with = |HiddenLaw { law, level: curve, .. }| {
-            let law = unproven(Addition::Part { part: law, others: Vec::new() }, 0);
-            self.refitted(of, self.beside(&self.beside(of, law), unproven(level(curve), 1)))
+        let with = |HiddenLaw { law, level, .. }| {
+            let law = self.beside(of, unproven(Addition::Part { part: law, others: Vec::new() }, 0));
+            self.refitted(of, self.beside(&law, unproven(Addition::Curve(level), 1)))
         };
-        hidden_laws(hypothesis, list, self.refitted).into_iter().map(with).collect()
+        hidden_laws(hypothesis, list, &levels, self.refitted).into_iter().map(with).collect()
     }
 
     /// Whether errors that groups share explain more than independent ones beside a level: their mean looks like one.

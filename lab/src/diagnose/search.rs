@@ -22,9 +22,9 @@ pub(super) struct SearchAxis {
 
 /// A coordinate nearer than this to 0 or 1 is at an end.
 const AT_END: f64 = 0.005;
-/// A coordinate that the data leave open within this distance of an end goes to it, not to the end,
+/// Nearer than this to an end a coordinate costs something: where the data do not tell, it stays away from the end.
 const EDGE: f64 = 0.1;
-/// which costs this much [nats]: one standard error.
+/// What the end itself costs [nats]: one standard error.
 const EDGE_COST: f64 = 0.5;
 
 impl SearchAxis {

@@ -1,6 +1,7 @@
 //! The sentences of a verdict. Those of impacts and of a rig differ in some words.
 
 use super::constants::{LISTED, NAMED, REFUTED};
+use super::curve::LEVEL_SHIFT;
 use super::record::{
     Calibration, Diagnosis, ExplanationFound, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained,
 };
@@ -21,9 +22,6 @@ pub(super) struct Words {
     /// Where nothing carries a misfit.
     pub carries: &'static str,
 }
-
-/// The cause of readings that all lie as far from the model.
-pub(super) const LEVEL_SHIFT: &str = "level-shift";
 
 /// The words for measured impacts.
 const IMPACTS: Words = Words {
