@@ -238,6 +238,11 @@ impl DataSplit {
         Self { shared: Some(groups.clone()), units, unit_count, ..self.clone() }
     }
 
+    /// Share of readings in a heavy tail, the same for all rows [1].
+    pub fn tails(&self) -> f64 {
+        self.noise.first().map_or(0.0, |offset| offset.tails)
+    }
+
     /// The split for the final fit: more draws a row, and fewer rows for a stochastic model.
     pub fn fine(&self, stochastic: bool) -> Self {
         let mut fine = Self { draws: FINE_DRAWS, ..self.clone() };

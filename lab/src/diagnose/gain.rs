@@ -57,10 +57,12 @@ pub(super) struct HeldOutRows {
     scores: Vec<[f64; 2]>,
 }
 
-/// A model file with the scatter about it.
+/// A model file with the noise about it.
 pub(super) struct ModelFile<'a> {
     pub model: &'a Model,
     pub scatter: Scatter,
+    /// Share of readings in a heavy tail, beside which the scatter was fitted [1].
+    pub tails: f64,
 }
 
 impl HeldOutRows {
@@ -133,7 +135,7 @@ impl PredictedRows {
         let some = rows_for(file.model, data, rows);
         let mut split = DataSplit::bare(file.model, &some, ROW_DRAWS);
         split.missing = Arc::new(MissingInputs::of(&data.rows));
-        let offsets = vec![Offset::default(); some.len()];
+        let offsets = vec![Offset { tails: file.tails, ..Offset::default() }; some.len()];
         let evaluation = Evaluation::new(&split, file.model, split.all(), offsets, file.scatter);
         let squares = Observable::ALL.map(|observable| {
             let pairs = evaluation.pairs(observable).zip(&some);

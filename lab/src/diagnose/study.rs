@@ -110,10 +110,12 @@ impl Study {
         text: &str,
     ) -> Result<MeasuredGain, InputError> {
         let mut held_out = HeldOutRows::default();
-        let base = ModelFile { model: &whole.base, scatter: models[0].scatter };
+        let base =
+            ModelFile { model: &whole.base, scatter: models[0].scatter, tails: models[0].data.tails() };
         if !self.unseen.is_empty() {
             let model = Model::from_toml("extended.toml", text)?;
-            let extended = ModelFile { model: &model, scatter: models[1].scatter };
+            let extended =
+                ModelFile { model: &model, scatter: models[1].scatter, tails: models[1].data.tails() };
             let unseen = &self.unseen[..self.unseen.len().min(GAIN_ROWS)];
             held_out.add(rows, &self.units.of_row, unseen, [&base, &extended]);
             return Ok(MeasuredGain { how: HELD_OUT, rows: held_out, seen: None });
@@ -125,15 +127,20 @@ impl Study {
             let others: Vec<usize> = (0..whole.rows.len()).filter(|&row| !inside[row]).collect();
             let choice = CauseChoice::new(&whole.fitting(&others), Task { effort: QUICK, ..task });
             let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
-            Ok((Model::from_toml("extended.toml", &text)?, choice.scatter()))
+            Ok((Model::from_toml("extended.toml", &text)?, choice.scatter(), choice.data.tails()))
         };
-        let files: Vec<(Model, _)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
-        for (part, (model, scatter)) in parts.iter().zip(&files) {
-            held_out.add(rows, &self.units.of_row, part, [&base, &ModelFile { model, scatter: *scatter }]);
+        let files: Vec<(Model, _, f64)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
+        for (part, (model, scatter, tails)) in parts.iter().zip(&files) {
+            held_out.add(
+                rows,
+                &self.units.of_row,
+                part,
+                [&base, &ModelFile { model, scatter: *scatter, tails: *tails }],
+            );
         }
         let model = Model::from_toml("extended.toml", text)?;
         let mut seen = HeldOutRows::default();
-        let extended = ModelFile { model: &model, scatter: models[1].scatter };
+        let extended = ModelFile { model: &model, scatter: models[1].scatter, tails: models[1].data.tails() };
         seen.add(rows, &self.units.of_row, &whole.all(), [&base, &extended]);
         Ok(MeasuredGain { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
     }
