@@ -38,6 +38,13 @@ impl SearchAxis {
         Self { logarithmic: true, ..Self::linear(low, high) }
     }
 
+    /// The axis of a parameter that begins lower by a factor, as far as its bounds allow.
+    pub fn from_lower(self, factor: f64, parameter: &Parameter) -> Self {
+        let least = parameter.bounds.0;
+        let low = (factor * self.low).max(least);
+        Self { low, open: [low > least, self.open[1]], ..self }
+    }
+
     /// Whether a coordinate is at an end beyond which the parameter could lie.
     pub fn is_at_end(self, at: f64) -> bool {
         (self.open[0] && at < AT_END) || (self.open[1] && at > 1.0 - AT_END)

@@ -11,12 +11,15 @@ use super::super::search::SearchAxis;
 use super::form::RigForm;
 use super::inputs::Over;
 use crate::rig::{CaseNumber, FARTHEST, PRESENT};
-use nearwall::effect::{CurveAxis, CurveTarget, FORMS, FittedCurve, Operation, Term};
+use nearwall::effect::{CurveAxis, CurveTarget, FORMS, FittedCurve, Operation, Search, Term};
 use nearwall::model::Model;
 
 /// Largest value of a curve or a level: of `e_n` and `e_t` as a share, of capture in log odds.
 pub(super) const RESTITUTION_REACH: f64 = 0.8;
 const CAPTURE_REACH: f64 = 7.0;
+/// Narrowest width of a law over the usual one [1]: shares of many particles tell widths that are small beside the
+/// distance of two experiments.
+const NARROWEST: f64 = 0.25;
 /// Knots of a curve.
 const KNOTS: usize = 3;
 
@@ -51,10 +54,15 @@ pub(super) struct RigAddition {
 }
 
 impl RigAddition {
-    /// An effect or a law's number; `range` gives the least and largest value of an input. `None`
+    /// An effect or a law's number; `range` gives the range of an input in which its place is searched. `None`
     /// if the impacts do not vary in what it depends on.
     pub fn part(part: Part, range: impl Fn(&str) -> Option<[f64; 2]>) -> Option<Self> {
-        let axes = part.axes(range, false)?;
+        let mut axes = part.axes(range, false)?;
+        if let Part::Effect(effect) = part {
+            let both = axes.iter_mut().zip(effect.parameters);
+            let widths = both.filter(|(_, one)| matches!(one.search, Search::InputWidth(_)));
+            widths.for_each(|(axis, one)| *axis = axis.from_lower(NARROWEST, one));
+        }
         Some(Self { kind: Kind::Part(part), at: vec![0.5; axes.len()], axes, intervals: Vec::new() })
     }
 
@@ -111,6 +119,17 @@ impl RigAddition {
         let moved = self.moved(&[axis.coordinate(now + widths).clamp(0.0, 1.0)]);
         let intervals = moved.values().iter().map(|value| [value - half, value + half]).collect();
         Self { intervals, ..moved }
+    }
+
+    /// The same with one more parameter of the effect free that has a default, from there; none if it has none left.
+    pub fn with_default_free(&self) -> Option<Self> {
+        let Kind::Part(Part::Effect(effect)) = &self.kind else { return None };
+        let parameter = effect.parameters.get(self.axes.len())?;
+        let axis = SearchAxis::of(parameter, |_| None)?;
+        let mut freer = self.clone();
+        freer.at.push(axis.coordinate(parameter.default?));
+        freer.axes.push(axis);
+        Some(freer)
     }
 
     /// The same at other coordinates.

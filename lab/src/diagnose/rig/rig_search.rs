@@ -123,11 +123,25 @@ impl<'a> RigSearch<'a> {
         best.map_or_else(|| of.clone(), |(_, FittedRig { additions, prepared })| self.of(additions, prepared))
     }
 
-    /// The same with all parameters fitted together.
+    /// The same with all parameters fitted together; those of the last addition that have a default only where
+    /// that has more evidence.
     fn refitted(&self, new: RigExplanation) -> RigExplanation {
-        let fitted = self.explanation(self.study.fit(&new.fitted.additions, self.weights));
         (self.study.progress)(&new.keys.join(" and "));
-        fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new)
+        let fit = |additions: &[RigAddition]| self.explanation(self.study.fit(additions, self.weights));
+        let fitted = fit(&new.fitted.additions);
+        let mut best = fitted.filter(|fitted| fitted.score() > new.score()).unwrap_or(new);
+        let mut wider = best.fitted.additions.clone();
+        while let Some(last) = wider.pop() {
+            let Some(freer) = last.with_default_free() else { break };
+            wider.push(freer);
+            let Some(freed) = fit(&wider) else { break };
+            wider.clone_from(&freed.fitted.additions);
+            let is_law = !wider.iter().any(RigAddition::at_bound);
+            if is_law && self.evidence.of(&freed) > self.evidence.of(&best) {
+                best = freed;
+            }
+        }
+        best
     }
 
     /// The same with the closed form in the place of the last curve or form that has the most evidence, if it has more.
