@@ -21,6 +21,7 @@ mod init;
 mod laboratory_files;
 mod licences;
 mod map;
+mod melting_rig;
 mod pages;
 mod published;
 #[cfg(unix)]

@@ -135,10 +135,11 @@ pub(super) fn descend_to(
     let Ok(solver) = NelderMead::new(simplex).with_sd_tolerance(tolerance) else { return fallback() };
     let run = Executor::new(Bounded(&cost), solver).configure(|state| state.max_iters(rounds)).run();
     let Ok(result) = run else { return fallback() };
-    match result.state.best_param {
-        Some(at) => (at.iter().map(|c| c.clamp(0.0, 1.0)).collect(), result.state.best_cost),
-        None => fallback(),
-    }
+    let Some(at) = result.state.best_param else { return fallback() };
+    let at: Vec<f64> = at.iter().map(|c| c.clamp(0.0, 1.0)).collect();
+    // Without what the ends cost.
+    let least = cost(&at);
+    (at, least)
 }
 
 /// The places of smallest cost, at most `count`.
