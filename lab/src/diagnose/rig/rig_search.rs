@@ -134,7 +134,8 @@ impl<'a> RigSearch<'a> {
         while let Some(last) = wider.pop() {
             let Some(freer) = last.with_default_free() else { break };
             wider.push(freer);
-            let Some(freed) = fit(&wider) else { break };
+            // The simplex begins anew: with a default far off it comes to rest on its way.
+            let Some(freed) = fit(&wider).and_then(|once| fit(&once.fitted.additions)) else { break };
             wider.clone_from(&freed.fitted.additions);
             let is_law = !wider.iter().any(RigAddition::at_bound);
             if is_law && self.evidence.of(&freed) > self.evidence.of(&best) {
