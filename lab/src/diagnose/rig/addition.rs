@@ -4,6 +4,7 @@
 use toml_edit::{ArrayOfTables, DocumentMut, InlineTable, Table, Value};
 
 use super::super::closed_form::ClosedForm;
+use super::super::constant_capture::CaptureConstant;
 use super::super::extend::{curve_effect, effect, form_effect, list, with_effects};
 use super::super::part::{FittedPart, Part, rounded};
 use super::super::record::Estimate;
@@ -20,6 +21,8 @@ const CAPTURE_REACH: f64 = 7.0;
 /// Narrowest width of a law over the usual one [1]: shares of many particles tell widths that are small beside the
 /// distance of two experiments.
 const NARROWEST: f64 = 0.25;
+/// Least ceiling of captures that is searched [1].
+const LEAST_CEILING: f64 = 0.1;
 /// Knots of a curve.
 const KNOTS: usize = 3;
 
@@ -34,6 +37,8 @@ pub(super) enum Kind {
     },
     /// A closed form in the place of a curve.
     Form(RigForm),
+    /// At most a share of what the laws capture is captured; the parameter is that share.
+    Ceiling,
     /// Another value of a number of the case, by place; the parameter is its distance from the case's
     /// value in standard errors. A force that the case leaves out has no parameter.
     Case {
@@ -74,6 +79,17 @@ impl RigAddition {
             kind: Kind::Curve { on, over },
             axes: vec![SearchAxis::linear(-reach, reach); count],
             at: vec![0.5; count],
+            intervals: Vec::new(),
+        }
+    }
+
+    /// A ceiling of captures at this share.
+    pub fn ceiling(share: f64) -> Self {
+        let axis = SearchAxis::linear(LEAST_CEILING, 1.0);
+        Self {
+            kind: Kind::Ceiling,
+            at: vec![axis.coordinate(share)],
+            axes: vec![axis],
             intervals: Vec::new(),
         }
     }
@@ -145,6 +161,7 @@ impl RigAddition {
                 format!("unknown:{}", over.name)
             }
             Kind::Curve { on, over: None } => format!("level:{}", on.name()),
+            Kind::Ceiling => CaptureConstant::Ceiling.name().to_owned(),
             Kind::Case { number, .. } => format!("case:{}", number.key),
         }
     }
@@ -158,7 +175,7 @@ impl RigAddition {
     /// Tells it from all other additions: a curve over one input may act on several observables.
     pub fn key(&self) -> String {
         match &self.kind {
-            Kind::Part(_) | Kind::Case { .. } => self.name(),
+            Kind::Part(_) | Kind::Case { .. } | Kind::Ceiling => self.name(),
             Kind::Curve { on, .. } | Kind::Form(RigForm { on, .. }) => {
                 format!("{} on {}", self.name(), on.name())
             }
@@ -175,7 +192,7 @@ impl RigAddition {
         match &self.kind {
             Kind::Curve { over, .. } => over.as_ref(),
             Kind::Form(form) => Some(&form.over),
-            Kind::Part(_) | Kind::Case { .. } => None,
+            Kind::Part(_) | Kind::Case { .. } | Kind::Ceiling => None,
         }
     }
 
@@ -202,7 +219,7 @@ impl RigAddition {
             Kind::Curve { .. } | Kind::Form(_) => {
                 self.over().map(|over| over.name.clone()).into_iter().collect()
             }
-            Kind::Case { .. } => Vec::new(),
+            Kind::Case { .. } | Kind::Ceiling => Vec::new(),
         }
     }
 
@@ -223,7 +240,7 @@ impl RigAddition {
                 let values = self.fitted().map(|part| part.values()).unwrap_or_default();
                 with_term(model, Term::new(info, &values))
             }
-            Kind::Curve { .. } => {
+            Kind::Curve { .. } | Kind::Ceiling => {
                 self.fitted_curve().map_or(model.clone(), |curve| with_term(model, Term::fitted_curve(curve)))
             }
             Kind::Form(form) => with_term(model, Term::fitted_form(form.fitted(self.values()))),
@@ -249,7 +266,15 @@ impl RigAddition {
 
     /// The curve with its present heights.
     pub fn fitted_curve(&self) -> Option<FittedCurve> {
-        let Kind::Curve { on, over } = &self.kind else { return None };
+        let (on, over) = match &self.kind {
+            Kind::Curve { on, over } => (on, over),
+            Kind::Ceiling => {
+                let values = self.values().into_iter().map(|share| share - 1.0).collect();
+                let (on, form) = (CurveTarget::Capture, Operation::Factor);
+                return Some(FittedCurve { on, form, axes: Vec::new(), values });
+            }
+            _ => return None,
+        };
         let form = if *on == CurveTarget::Capture { Operation::Add } else { Operation::Factor };
         let axis = |over: &Over| {
             let [low, high] = over.seen;
@@ -276,6 +301,13 @@ impl RigAddition {
                 .closed_form()
                 .map(|closed| closed.estimates(form.over.unit).collect())
                 .unwrap_or_default(),
+            Kind::Ceiling => match (&self.values()[..], &self.intervals[..]) {
+                (&[value], &[interval]) => {
+                    let [value, low, high] = [value, interval[0], interval[1]].map(rounded);
+                    vec![("share", Estimate { value, low, high, unit: "1" })]
+                }
+                _ => Vec::new(),
+            },
             _ => Vec::new(),
         }
     }
@@ -291,7 +323,7 @@ impl RigAddition {
             Kind::Part(Part::Effect(info)) => {
                 added.extend(self.fitted().map(|part| effect(&part, info, valid.clone())));
             }
-            Kind::Curve { .. } => {
+            Kind::Curve { .. } | Kind::Ceiling => {
                 if let Some(curve) = self.fitted_curve() {
                     added.push(curve_table(&curve, self.over(), valid));
                 }

@@ -273,6 +273,20 @@ impl Data {
         PreparedReadings { rows }
     }
 
+    /// The same predictions where at most a share of what is captured is [1].
+    pub fn below(&self, prepared: &PreparedReadings, ceiling: f64) -> PreparedReadings {
+        use PreparedReading::{Normal, Share, Shared};
+        let row = |(datum, own): (&Datum, &PreparedReading)| match *own {
+            _ if !self.kinds[datum.kind].starts_with("capture") => *own,
+            Share { log_odds, trust } => {
+                Share { log_odds: log_odds_of(ceiling / (1.0 + (-log_odds).exp())), trust }
+            }
+            Normal { mean, trust } => Normal { mean: ceiling * mean, trust },
+            Shared { kind, mean, weight } => Shared { kind, mean: ceiling * mean, weight },
+        };
+        PreparedReadings { rows: self.readings.iter().zip(&prepared.rows).map(row).collect() }
+    }
+
     /// Values with the weights of their experiments.
     pub fn weighted<'a>(&'a self, values: &'a ReadingValues, weights: &[f64]) -> WeightedValues<'a> {
         let mut groups: Vec<WeightedGroup<'a>> = self

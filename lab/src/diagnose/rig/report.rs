@@ -4,6 +4,7 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::closed_form::ClosedForm;
+use super::super::constant_capture::CaptureConstant;
 use super::super::constants::REFUTED;
 use super::super::finding::{equation, group_words, sigma};
 use super::super::form_finding;
@@ -443,6 +444,9 @@ fn explain(finding: &Finding) -> String {
             "All impacts differ by the same amount in {what}; no input explains where, and nothing tells a law from a \
                 constant."
         ),
+        (None, None) if finding.cause == CaptureConstant::Ceiling.name() => {
+            "Only a share of what the wall law captures is: the others bounce, and no input shows why.".to_owned()
+        }
         _ => finding.cause.clone(),
     };
     let others = match finding.indistinguishable_from.as_slice() {

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::candidate::{Class, FURTHER};
+use super::super::constant_capture::CaptureConstant;
 use super::super::explanation::{Evidence, Explained, Explanation, WINDOW};
 use super::super::part::Part;
 use super::addition::{Kind, RigAddition, keys};
@@ -18,6 +19,8 @@ use nearwall::group::GROUPS;
 const UNCHANGED: f64 = 1.0 / 3.0;
 /// Fewest candidates of an expansion that are fitted, however little they promise.
 const LEAST_FITTED: usize = 3;
+/// Ceilings of captures that are tried first [1].
+const CEILINGS: [f64; 3] = [0.9, 0.7, 0.4];
 /// One cause, and one more for so many readings; and most causes.
 const READINGS_A_CAUSE: usize = 3;
 const MOST_RIG_CAUSES: usize = 5;
@@ -176,6 +179,45 @@ impl<'a> RigSearch<'a> {
         self.evidence.gain(of.score() + room, of.freedom + 1.0) > self.evidence.gain(of.score(), of.freedom)
     }
 
+    /// A ceiling of captures beside a law: alone it changes nothing, and a law that captures all is refuted by the few
+    /// that rebound, so that both are fitted together. The laws that gain most below a ceiling, beside the base model,
+    /// and the ceiling beside others.
+    fn below_ceilings(&self, of: &RigExplanation) -> Vec<RigExplanation> {
+        let name = CaptureConstant::Ceiling.name();
+        let (data, values) = (&self.study.data, self.study.data.values());
+        let has = |one: &RigExplanation| one.keys.iter().any(|key| key == name);
+        if has(of) || !data.kinds.iter().any(|kind| kind.starts_with("capture")) {
+            return Vec::new();
+        }
+        if self.refitted == 0 {
+            let wider = |one: &&RigExplanation| has(one) && of.keys.iter().all(|key| one.keys.contains(key));
+            let of =
+                |one: &RigExplanation| self.of(one.fitted.additions.clone(), one.fitted.prepared.clone());
+            return self.known.iter().filter(wider).map(of).collect();
+        }
+        let ceiling = |share: f64| [&of.fitted.additions[..], &[RigAddition::ceiling(share)]].concat();
+        if !of.fitted.additions.is_empty() {
+            let with = self.explanation(ceiling(CEILINGS[0]));
+            return with.map(|one| self.refitted(one)).into_iter().collect();
+        }
+        let weighted = data.weighted(values, self.weights);
+        let best = |law: &TabledCandidate| {
+            let places = law.places.iter().flat_map(|place| CEILINGS.map(|share| (place, share)));
+            let scored = places.map(|(place, share)| {
+                let below = data.below(&place.prepared, share);
+                (data.score_weighted(&below, &weighted), law.addition.moved(&place.at), share)
+            });
+            scored.max_by(|a, b| a.0.total_cmp(&b.0))
+        };
+        let laws = self.study.table.candidates.iter().filter(|one| class(&one.addition) == Class::Law);
+        let mut laws: Vec<_> = laws.filter_map(best).collect();
+        laws.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let with = |(_, law, share): (f64, RigAddition, f64)| {
+            self.explanation([ceiling(share), vec![law]].concat()).map(|one| self.refitted(one))
+        };
+        laws.into_iter().take(LEAST_FITTED).filter_map(with).collect()
+    }
+
     /// All candidates beside an explanation that are not part of it, the most probable first.
     fn beside(&self, of: &RigExplanation) -> Vec<RigExplanation> {
         let others = self.study.table.candidates.iter().filter(|one| !of.keys.contains(&one.addition.key()));
@@ -211,6 +253,7 @@ impl Explained for RigSearch<'_> {
         let is_open = |one: &RigExplanation| self.evidence.of(one) > best - WINDOW;
         let formed = |one: RigExplanation| if is_open(&one) { self.best_form(one) } else { one };
         let mut found: Vec<_> = fitted.into_iter().map(formed).chain(rest).collect();
+        found.extend(self.below_ceilings(of));
         found.retain(|new| !new.fitted.additions.iter().any(RigAddition::at_bound));
         found
     }
@@ -243,5 +286,6 @@ fn class(addition: &RigAddition) -> Class {
             Some(_) => Class::Input,
         },
         Kind::Case { .. } => Class::Case,
+        Kind::Ceiling => Class::Noise,
     }
 }

@@ -106,11 +106,22 @@ pub(in crate::report) fn candidates(causes: &[String]) -> Table {
         let effect = EFFECTS.iter().find(|effect| effect.id == cause);
         vec![
             cause_title(cause),
-            effect.map_or(String::new(), |effect| effect.about.to_owned()),
+            effect.map_or_else(|| without_effect(cause), |effect| effect.about).to_owned(),
             inputs(cause).join(", "),
         ]
     };
     Table::new("", 3, &["cause", "what it does", "depends on"], causes.iter().map(row).collect())
+}
+
+/// What a cause does that is no effect of the library.
+fn without_effect(cause: &str) -> &'static str {
+    match cause.split(':').next() {
+        Some("level" | "level-shift") => "shifts all readings alike",
+        Some("capture-ceiling") => "lets a share of what the law captures bounce",
+        Some("unknown") => "no law of the library",
+        Some("case") => "another number in the case",
+        _ => "",
+    }
 }
 
 /// The inputs of a cause.
