@@ -445,7 +445,8 @@ fn explain(finding: &Finding) -> String {
                 constant."
         ),
         (None, None) if finding.cause == CaptureConstant::Ceiling.name() => {
-            "Only a share of what the wall law captures is: the others bounce, and no input shows why.".to_owned()
+            "Only a share of what the wall law captures is: the others bounce, and no input shows why."
+                .to_owned()
         }
         _ => finding.cause.clone(),
     };
