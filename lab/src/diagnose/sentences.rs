@@ -8,6 +8,8 @@ use super::record::{
 
 /// Smaller chances are not told apart.
 const SMALLEST_CHANCE: f64 = 1e-12;
+/// Share of chi-square from which on a single reading is nearly all of it [1].
+const NEARLY_ALL: f64 = 0.8;
 /// With fewer rows the verdict warns that effects may go undetected.
 const WARNED_ROWS: usize = 60;
 
@@ -208,8 +210,12 @@ pub(super) fn fit_sentence(diagnosis: &Diagnosis, beside: &str) -> String {
     }
     let misfit = |one: &LargeMisfit| format!("line {} by {:+.1}", one.line, one.standard_errors);
     let misfits: Vec<String> = largest.iter().take(3).map(misfit).collect();
+    let alone = largest.first().is_some_and(|one| one.standard_errors.powi(2) > NEARLY_ALL * chi_square);
     let misfits = match misfits.as_slice() {
         [] => String::new(),
+        [first, ..] if alone => {
+            format!("; nearly all of it is {first} standard errors: look at that reading first")
+        }
         some => format!("; the largest misfits in standard errors of the readings: {}", some.join(", ")),
     };
     let chance = match 1.0 / p.max(SMALLEST_CHANCE) {
