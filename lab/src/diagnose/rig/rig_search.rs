@@ -196,8 +196,10 @@ impl<'a> RigSearch<'a> {
             return self.known.iter().filter(wider).map(of).collect();
         }
         let ceiling = |share: f64| [&of.fitted.additions[..], &[RigAddition::ceiling(share)]].concat();
+        let is_law = |one: &RigAddition| class(one) == Class::Law;
         if !of.fitted.additions.is_empty() {
-            let with = self.explanation(ceiling(CEILINGS[0]));
+            let law = of.fitted.additions.iter().any(is_law);
+            let with = law.then(|| self.explanation(ceiling(CEILINGS[0]))).flatten();
             return with.map(|one| self.refitted(one)).into_iter().collect();
         }
         let weighted = data.weighted(values, self.weights);
@@ -209,7 +211,7 @@ impl<'a> RigSearch<'a> {
             });
             scored.max_by(|a, b| a.0.total_cmp(&b.0))
         };
-        let laws = self.study.table.candidates.iter().filter(|one| class(&one.addition) == Class::Law);
+        let laws = self.study.table.candidates.iter().filter(|one| is_law(&one.addition));
         let mut laws: Vec<_> = laws.filter_map(best).collect();
         laws.sort_by(|a, b| b.0.total_cmp(&a.0));
         let with = |(_, law, share): (f64, RigAddition, f64)| {
