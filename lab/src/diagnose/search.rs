@@ -39,7 +39,7 @@ impl SearchAxis {
     }
 
     /// The axis of a parameter that begins lower by a factor, as far as its bounds allow.
-    pub fn from_lower(self, factor: f64, parameter: &Parameter) -> Self {
+    pub fn lowered(self, factor: f64, parameter: &Parameter) -> Self {
         let least = parameter.bounds.0;
         let low = (factor * self.low).max(least);
         Self { low, open: [low > least, self.open[1]], ..self }

@@ -66,7 +66,7 @@ impl RigAddition {
         if let Part::Effect(effect) = part {
             let both = axes.iter_mut().zip(effect.parameters);
             let widths = both.filter(|(_, one)| matches!(one.search, Search::InputWidth(_)));
-            widths.for_each(|(axis, one)| *axis = axis.from_lower(NARROWEST, one));
+            widths.for_each(|(axis, one)| *axis = axis.lowered(NARROWEST, one));
         }
         Some(Self { kind: Kind::Part(part), at: vec![0.5; axes.len()], axes, intervals: Vec::new() })
     }
