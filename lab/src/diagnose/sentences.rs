@@ -210,11 +210,14 @@ pub(super) fn fit_sentence(diagnosis: &Diagnosis, beside: &str) -> String {
     }
     let misfit = |one: &LargeMisfit| format!("line {} by {:+.1}", one.line, one.standard_errors);
     let misfits: Vec<String> = largest.iter().take(3).map(misfit).collect();
-    let alone = largest.first().is_some_and(|one| one.standard_errors.powi(2) > NEARLY_ALL * chi_square);
+    let listed: f64 = largest.iter().map(|one| one.standard_errors.powi(2)).sum();
+    // Errors of a case lower chi-square, but not the misfits of the others.
+    let all = listed.max(*chi_square);
+    let alone = largest.first().is_some_and(|one| one.standard_errors.powi(2) > NEARLY_ALL * all);
     let misfits = match misfits.as_slice() {
         [] => String::new(),
         [first, ..] if alone => {
-            format!("; nearly all of it is {first} standard errors: look at that reading first")
+            format!("; nearly all of it is one reading, {first} standard errors: check it first")
         }
         some => format!("; the largest misfits in standard errors of the readings: {}", some.join(", ")),
     };

@@ -21,7 +21,7 @@ const CAPTURE_REACH: f64 = 7.0;
 /// Narrowest width of a law over the usual one [1]: shares of many particles tell widths that are small beside the
 /// distance of two experiments.
 const NARROWEST: f64 = 0.25;
-/// Least ceiling of captures that is searched [1].
+/// Least ceiling of captures that is searched [1]: shares of a rig tell it where outcomes of single impacts do not.
 const LEAST_CEILING: f64 = 0.1;
 /// Knots of a curve.
 const KNOTS: usize = 3;
@@ -267,20 +267,20 @@ impl RigAddition {
     /// The curve with its present heights.
     pub fn fitted_curve(&self) -> Option<FittedCurve> {
         let (on, over) = match &self.kind {
-            Kind::Curve { on, over } => (on, over),
-            Kind::Ceiling => {
-                let values = self.values().into_iter().map(|share| share - 1.0).collect();
-                let (on, form) = (CurveTarget::Capture, Operation::Factor);
-                return Some(FittedCurve { on, form, axes: Vec::new(), values });
-            }
+            Kind::Curve { on, over } => (*on, over.as_ref()),
+            Kind::Ceiling => (CurveTarget::Capture, None),
             _ => return None,
         };
-        let form = if *on == CurveTarget::Capture { Operation::Add } else { Operation::Factor };
+        let is_ceiling = matches!(self.kind, Kind::Ceiling);
+        let form = if on == CurveTarget::Capture && !is_ceiling { Operation::Add } else { Operation::Factor };
+        let mut values = self.values();
+        // A factor is written by its distance from 1.
+        values.iter_mut().filter(|_| is_ceiling).for_each(|share| *share -= 1.0);
         let axis = |over: &Over| {
             let [low, high] = over.seen;
             CurveAxis { input: over.input, knots: vec![low, over.middle, high] }
         };
-        Some(FittedCurve { on: *on, form, axes: over.iter().map(axis).collect(), values: self.values() })
+        Some(FittedCurve { on, form, axes: over.into_iter().map(axis).collect(), values })
     }
 
     /// The parameters of an effect by name with their intervals; none before the final fit.

@@ -179,45 +179,49 @@ impl<'a> RigSearch<'a> {
         self.evidence.gain(of.score() + room, of.freedom + 1.0) > self.evidence.gain(of.score(), of.freedom)
     }
 
-    /// A ceiling of captures beside a law: alone it changes nothing, and a law that captures all is refuted by the few
-    /// that rebound, so that both are fitted together. The laws that gain most below a ceiling, beside the base model,
-    /// and the ceiling beside others.
-    fn below_ceilings(&self, of: &RigExplanation) -> Vec<RigExplanation> {
+    /// Explanations with a ceiling of captures and one more law at most: alone a ceiling changes nothing, and a law that
+    /// captures all is refuted by the few that rebound, so that both are fitted together.
+    fn with_ceiling(&self, of: &RigExplanation) -> Vec<RigExplanation> {
         let name = CaptureConstant::Ceiling.name();
-        let (data, values) = (&self.study.data, self.study.data.values());
         let has = |one: &RigExplanation| one.keys.iter().any(|key| key == name);
-        if has(of) || !data.kinds.iter().any(|kind| kind.starts_with("capture")) {
+        if has(of) || !self.study.data.kinds.iter().any(|kind| kind.starts_with("capture")) {
             return Vec::new();
         }
         if self.refitted == 0 {
             let wider = |one: &&RigExplanation| has(one) && of.keys.iter().all(|key| one.keys.contains(key));
-            let of =
-                |one: &RigExplanation| self.of(one.fitted.additions.clone(), one.fitted.prepared.clone());
-            return self.known.iter().filter(wider).map(of).collect();
+            let known = |one: &RigExplanation| {
+                self.of(one.fitted.additions.clone(), Arc::clone(&one.fitted.prepared))
+            };
+            return self.known.iter().filter(wider).map(known).collect();
         }
-        let ceiling = |share: f64| [&of.fitted.additions[..], &[RigAddition::ceiling(share)]].concat();
-        let is_law = |one: &RigAddition| class(one) == Class::Law;
-        if !of.fitted.additions.is_empty() {
-            let law = of.fitted.additions.iter().any(is_law);
-            let with = law.then(|| self.explanation(ceiling(CEILINGS[0]))).flatten();
-            return with.map(|one| self.refitted(one)).into_iter().collect();
-        }
-        let weighted = data.weighted(values, self.weights);
+        let own = &of.fitted.additions;
+        let starts = if own.is_empty() {
+            self.laws_below_ceilings()
+        } else if own.iter().any(|one| class(one) == Class::Law) {
+            vec![[&own[..], &[RigAddition::ceiling(CEILINGS[0])]].concat()]
+        } else {
+            Vec::new()
+        };
+        let fitted = starts.into_iter().filter_map(|start| self.explanation(start));
+        fitted.map(|one| self.refitted(one)).collect()
+    }
+
+    /// A ceiling and each of the laws that gain most below one, at their best places of the table.
+    fn laws_below_ceilings(&self) -> Vec<Vec<RigAddition>> {
+        let data = &self.study.data;
+        let values = data.weighted(data.values(), self.weights);
         let best = |law: &TabledCandidate| {
             let places = law.places.iter().flat_map(|place| CEILINGS.map(|share| (place, share)));
             let scored = places.map(|(place, share)| {
-                let below = data.below(&place.prepared, share);
-                (data.score_weighted(&below, &weighted), law.addition.moved(&place.at), share)
+                let score = data.score_weighted(&data.below(&place.prepared, share), &values);
+                (score, vec![RigAddition::ceiling(share), law.addition.moved(&place.at)])
             });
             scored.max_by(|a, b| a.0.total_cmp(&b.0))
         };
-        let laws = self.study.table.candidates.iter().filter(|one| is_law(&one.addition));
+        let laws = self.study.table.candidates.iter().filter(|one| class(&one.addition) == Class::Law);
         let mut laws: Vec<_> = laws.filter_map(best).collect();
         laws.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let with = |(_, law, share): (f64, RigAddition, f64)| {
-            self.explanation([ceiling(share), vec![law]].concat()).map(|one| self.refitted(one))
-        };
-        laws.into_iter().take(LEAST_FITTED).filter_map(with).collect()
+        laws.into_iter().take(LEAST_FITTED).map(|(_, start)| start).collect()
     }
 
     /// All candidates beside an explanation that are not part of it, the most probable first.
@@ -255,7 +259,7 @@ impl Explained for RigSearch<'_> {
         let is_open = |one: &RigExplanation| self.evidence.of(one) > best - WINDOW;
         let formed = |one: RigExplanation| if is_open(&one) { self.best_form(one) } else { one };
         let mut found: Vec<_> = fitted.into_iter().map(formed).chain(rest).collect();
-        found.extend(self.below_ceilings(of));
+        found.extend(self.with_ceiling(of));
         found.retain(|new| !new.fitted.additions.iter().any(RigAddition::at_bound));
         found
     }

@@ -118,8 +118,8 @@ fn without_effect(cause: &str) -> &'static str {
     match cause.split(':').next() {
         Some("level" | "level-shift") => "shifts all readings alike",
         Some("capture-ceiling") => "lets a share of what the law captures bounce",
-        Some("unknown") => "no law of the library",
-        Some("case") => "another number in the case",
+        Some("unknown") => "acts by no law of the library",
+        Some("case") => "is wrong in the case",
         _ => "",
     }
 }
