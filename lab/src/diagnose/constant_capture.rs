@@ -64,6 +64,7 @@ impl ConstantCapture {
     }
 
     /// An offset of a row with both.
+    #[inline]
     pub fn beside(&self, offset: &Offset) -> Offset {
         let ceiling = self.ceiling.unwrap_or(1.0);
         Offset { capture: offset.capture + self.rate, ceiling: offset.ceiling * ceiling, ..*offset }

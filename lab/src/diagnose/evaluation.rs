@@ -170,6 +170,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// The offset of a row, with the shared error of its group.
+    #[inline]
     fn offset(&self, index: usize) -> Offset {
         let mut offset = self.captures.beside(&self.offsets[index]);
         if let Some(groups) = &self.data.shared {
@@ -182,6 +183,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// Index, measurement, predictions and offset of every row.
+    #[inline]
     fn each(&self) -> impl Iterator<Item = (usize, &Measurement, &[Prediction], Offset)> {
         let one = |(place, &index): (usize, &usize)| {
             (index, &self.data.rows[index], self.forecast.of(place), self.offset(index))
@@ -190,6 +192,7 @@ impl<'a> Evaluation<'a> {
     }
 
     /// The readings of a row about their predicted means; of a censored one the step to the summit of its likelihood.
+    #[inline]
     fn row_residuals(
         &self,
         row: &Measurement,

@@ -95,6 +95,7 @@ impl Forecast {
     }
 
     /// The predictions of the row at this place in the list of rows.
+    #[inline]
     pub fn of(&self, place: usize) -> &[Prediction] {
         let start = if place == 0 { 0 } else { self.ends[place - 1] };
         &self.predictions[start..self.ends[place]]
@@ -122,6 +123,7 @@ fn set_reach(predictions: &mut [Prediction]) {
     }
 }
 
+#[inline]
 fn predict(model: &Model, row: &Measurement, lattice: &RotatedLattice<'_>, draw: usize) -> Prediction {
     let uniform = |stream| lattice.uniform(draw, stream);
     let (restitution, capture) = match model.resolve_place_with(row.wall, &row.impact, uniform) {

@@ -134,6 +134,7 @@ impl Censored {
 }
 
 /// The probability of capture with its offset, away from 0 and 1: no curve may gain from a claim of certainty.
+#[inline]
 fn capture(prediction: &Prediction, offset: &Offset) -> f64 {
     let plain = visible_capture(offset.ceiling * prediction.capture);
     if offset.capture == 0.0 {
@@ -156,6 +157,7 @@ pub(super) fn capture_odds(probability: f64) -> f64 {
 }
 
 /// The means over the draws of a row.
+#[inline]
 pub(super) fn mean(predictions: &[Prediction], offset: &Offset) -> Mean {
     let (mut rebounds, mut captured, mut all) = (0.0, 0.0, 0.0);
     let (mut sum, mut squares) = ([0.0; 2], [0.0; 2]);
@@ -179,6 +181,7 @@ pub(super) fn mean(predictions: &[Prediction], offset: &Offset) -> Mean {
 }
 
 /// The standard deviation of a reading about the prediction [1]; `variance` is that of the prediction.
+#[inline]
 fn deviation(
     scatter: f64,
     offset: &Offset,
@@ -293,6 +296,7 @@ fn limited(offset: &Offset, which: usize) -> Offset {
 }
 
 /// The standard deviation of a reading, and the mean by which visible readings exceed the prediction [1].
+#[inline]
 pub(super) fn reading_noise(
     scatter: f64,
     offset: &Offset,
