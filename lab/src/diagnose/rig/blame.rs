@@ -134,10 +134,8 @@ pub(super) fn settled(
         return Ok(additions);
     }
     let whole = predict(study.forward, &additions)?;
-    let readings = study.data.readings.iter().enumerate();
-    let seen: Vec<usize> =
-        readings.filter(|(_, one)| weights[one.experiment] > 0.0).map(|(index, _)| index).collect();
-    let errors = study.data.case_fit(&seen, &whole, &study.data.scatter(&whole, weights)).errors;
+    let regular = study.data.regular(&whole, weights);
+    let errors = study.data.case_fit(&regular, &whole, &study.data.scatter(&whole, weights)).errors;
     let of = |addition: RigAddition| match addition.case_number() {
         Some((place, ..)) => addition.moved_on(errors[place][0], NORMAL_95 * errors[place][1]),
         None => addition,
@@ -150,9 +148,10 @@ fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<
     let (case, law): (Vec<_>, Vec<_>) =
         additions.iter().cloned().partition(|addition| addition.case_number().is_some());
     let whole = predict(study.forward, additions)?;
-    let scatter = study.data.scatter(&whole, &vec![1.0; study.data.experiments]);
-    let readings: Vec<usize> = (0..study.data.readings.len()).collect();
-    let fit = |predicted: &[PredictedReading]| study.data.case_fit(&readings, predicted, &scatter);
+    let weights = vec![1.0; study.data.experiments];
+    let scatter = study.data.scatter(&whole, &weights);
+    let regular = study.data.regular(&whole, &weights);
+    let fit = |predicted: &[PredictedReading]| study.data.case_fit(&regular, predicted, &scatter);
     let mut left = fit(&study.table.base).chi_square;
     let mut fall = |predicted: &[PredictedReading]| {
         let before = left;

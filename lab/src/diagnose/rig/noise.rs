@@ -15,7 +15,7 @@ mod case_error;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Beta, Binomial, Distribution as _, StandardNormal};
 
-use super::scatter::{CountDensity, GRID, Group, GroupedReading, NormalDensity, OverGrid, log_sum};
+use super::scatter::{CountDensity, GRID, Group, GroupedReading, NormalDensity, OverGrid, log_sum, regular};
 use crate::dataset::Experiment;
 use crate::rig::{PredictedReading, away_from_edges, changed};
 
@@ -165,10 +165,8 @@ pub(in crate::diagnose) struct WeightedValues<'a> {
 #[derive(Debug)]
 struct WeightedGroup<'a> {
     group: &'a Group,
-    /// Index, weight, and of a stated error the weights of the distance over the grid.
-    readings: Vec<(usize, f64, Option<&'a OverGrid>)>,
-    /// Sum of the constants.
-    constant: OverGrid,
+    /// Index, weight, and of a stated error its density.
+    readings: Vec<(usize, f64, Option<&'a NormalDensity>)>,
 }
 
 /// Every reading with its noise, and the names of their kinds.
@@ -289,21 +287,15 @@ impl Data {
 
     /// Values with the weights of their experiments.
     pub fn weighted<'a>(&'a self, values: &'a ReadingValues, weights: &[f64]) -> WeightedValues<'a> {
-        let mut groups: Vec<WeightedGroup<'a>> = self
-            .groups
-            .iter()
-            .map(|group| WeightedGroup { group, readings: Vec::new(), constant: [0.0; GRID] })
-            .collect();
+        let mut groups: Vec<WeightedGroup<'a>> =
+            self.groups.iter().map(|group| WeightedGroup { group, readings: Vec::new() }).collect();
         let mut shared = Vec::new();
         for (index, times) in self.inside(weights) {
             let Some(known) = &self.known[index] else {
                 shared.push((index, times));
                 continue;
             };
-            let group = &mut groups[known.group];
-            group.readings.push((index, times, known.normal.as_ref().map(|normal| &normal.weight)));
-            let constant = known.normal.iter().flat_map(|normal| &normal.constant);
-            group.constant.iter_mut().zip(constant).for_each(|(sum, one)| *sum += times * one);
+            groups[known.group].readings.push((index, times, known.normal.as_ref()));
         }
         WeightedValues { values, groups, shared }
     }
@@ -431,6 +423,23 @@ impl Data {
         self.groups.iter().zip(&scatter.between).filter_map(note).collect()
     }
 
+    /// Readings that are more probably gross errors than not: index and that probability [1].
+    pub fn gross_errors(&self, predicted: &[PredictedReading], weights: &[f64]) -> Vec<(usize, f64)> {
+        let values = self.values();
+        let all = self.weighted(values, weights);
+        let prepared = &self.settled(&self.prepare(predicted), &all).prepared;
+        let of_group = |group: &WeightedGroup<'_>| -> Vec<(usize, f64)> {
+            let told = group.group.probabilities(&group.likelihood(prepared, values));
+            let one = |reading: &(usize, f64, Option<&NormalDensity>)| {
+                let single = WeightedGroup { group: group.group, readings: vec![*reading] };
+                let regular = regular(&single.likelihood(prepared, values));
+                (reading.0, told.iter().zip(regular).map(|(told, regular)| told * (1.0 - regular)).sum())
+            };
+            group.readings.iter().map(one).filter(|(_, gross)| *gross > 0.5).collect()
+        };
+        all.groups.iter().flat_map(of_group).collect()
+    }
+
     /// Fitted scatter of each kind without errors and counts [1].
     fn unstated_of(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> Vec<f64> {
         let mut sums = vec![(0.0, 0.0); self.kinds.len()];
@@ -462,12 +471,19 @@ impl Data {
         variance + one.doubt
     }
 
-    /// Chi-square of the readings with a known error, as they and the case state it, and their number.
-    pub fn chi_square(&self, predicted: &[PredictedReading], weights: &[f64]) -> (f64, usize) {
+    /// Chi-square of those of these readings that have a known error, as they and the case state it, and their number.
+    pub fn chi_square(&self, predicted: &[PredictedReading], readings: &[usize]) -> (f64, usize) {
         let is_known = |index: &usize| !matches!(self.readings[*index].noise, Noise::Shared { .. });
-        let known: Vec<usize> = self.inside(weights).map(|(index, _)| index).filter(is_known).collect();
+        let known: Vec<usize> = readings.iter().copied().filter(is_known).collect();
         let fit = self.case_fit(&known, predicted, &FittedScatter::default());
         (fit.chi_square - fit.carried.iter().sum::<f64>(), known.len())
+    }
+
+    /// Indices of the readings of experiments with a weight that are no gross errors about predictions.
+    pub fn regular(&self, predicted: &[PredictedReading], weights: &[f64]) -> Vec<usize> {
+        let gross = self.gross_errors(predicted, weights);
+        let is_regular = |index: &usize| gross.iter().all(|(one, _)| one != index);
+        self.inside(weights).map(|(index, _)| index).filter(is_regular).collect()
     }
 
     /// A predicted value that a reading can have, and its variance beside the reading's value.
@@ -516,14 +532,13 @@ impl Data {
 impl WeightedGroup<'_> {
     /// Log likelihood of its readings for each scatter of the grid [nats].
     fn likelihood(&self, prepared: &PreparedReadings, values: &ReadingValues) -> OverGrid {
-        let mut sums = self.constant;
-        for (index, times, weights) in &self.readings {
+        let mut sums = [0.0; GRID];
+        for (index, times, normal) in &self.readings {
             let value = values.value[*index];
-            match (prepared.rows[*index], weights, &values.counted[*index]) {
-                (PreparedReading::Normal { mean, trust }, Some(weights), _) => {
-                    let [distance, constant] =
-                        [times * trust.share * (value - mean).powi(2), times * trust.half_log];
-                    sums.iter_mut().zip(*weights).for_each(|(sum, one)| *sum += constant - distance * one);
+            match (prepared.rows[*index], normal, &values.counted[*index]) {
+                (PreparedReading::Normal { mean, trust }, Some(normal), _) => {
+                    let density = normal.at(trust.share * (value - mean).powi(2), trust.half_log);
+                    sums.iter_mut().zip(density).for_each(|(sum, one)| *sum += times * one);
                 }
                 (PreparedReading::Share { log_odds, trust }, _, Some(density)) => {
                     let here = density.at(log_odds);

@@ -138,6 +138,7 @@ impl RigFindings<'_> {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and \
                 diagnose their new record for more.";
         }
+        diagnosis.verdict += &self.gross_errors(&extended);
         let scatter = study.data.scatter(&extended, &vec![1.0; study.data.experiments]);
         Ok(RigDiagnosis {
             diagnosis,
@@ -164,9 +165,11 @@ impl RigFindings<'_> {
         let Self { study, choice, held_out, .. } = self;
         let base = &study.table.base;
         let parameters = choice.named.iter().map(|one| one.addition.axes.len()).sum();
+        let all: Vec<usize> = (0..study.data.readings.len()).collect();
+        let regular = study.data.regular(extended, &vec![1.0; study.data.experiments]);
         let fit = Fit {
-            base: self.fit_test(base, 0, choice.structure[0]),
-            extended: self.fit_test(extended, parameters, choice.structure[1]),
+            base: self.fit_test(base, &all, 0, choice.structure[0]),
+            extended: self.fit_test(extended, &regular, parameters, choice.structure[1]),
             largest: self.largest(base),
         };
         let (findings, calibration) = self.found()?;
@@ -221,10 +224,17 @@ impl RigFindings<'_> {
         Ok((findings, calibration))
     }
 
-    fn fit_test(&self, predicted: &[PredictedReading], parameters: usize, structure: f64) -> FitTest {
-        let data = &self.study.data;
-        let (chi_square, readings) = data.chi_square(predicted, &vec![1.0; data.experiments]);
-        if readings < data.readings.len() || readings <= parameters {
+    /// Of these readings.
+    fn fit_test(
+        &self,
+        predicted: &[PredictedReading],
+        readings: &[usize],
+        parameters: usize,
+        structure: f64,
+    ) -> FitTest {
+        let all = readings.len();
+        let (chi_square, readings) = self.study.data.chi_square(predicted, readings);
+        if readings < all || readings <= parameters {
             return FitTest { against: "structure", p_value: Some(structure), ..FitTest::default() };
         }
         let freedom = readings - parameters;
@@ -257,6 +267,21 @@ impl RigFindings<'_> {
         all.sort_by(|a, b| b.standard_errors.abs().total_cmp(&a.standard_errors.abs()));
         all.truncate(MOST_LISTED);
         all
+    }
+
+    /// A sentence on each reading that counts as a gross error about predictions.
+    fn gross_errors(&self, predicted: &[PredictedReading]) -> String {
+        let Self { study, .. } = self;
+        let data = &study.data;
+        let note = |(index, gross): (usize, f64)| {
+            let datum = &data.readings[index];
+            let line = study.forward.experiments()[datum.experiment].readings[datum.place].line;
+            format!(
+                " Line {line} counts as a gross error (probability {gross:.2}): {} is {} where {:.3} is predicted; check it.",
+                data.kinds[datum.kind], datum.value, predicted[index].value
+            )
+        };
+        data.gross_errors(predicted, &vec![1.0; data.experiments]).into_iter().map(note).collect()
     }
 
     fn calibration(&self, Named { addition, p_value, .. }: &Named) -> Option<Calibration> {

@@ -19,11 +19,27 @@
 //! again is usual, ten times as much is not. The integral is a sum over a grid that is even in
 //! `ln(V + s²)`, in which the integrand is near normal: a sum with steps up to twice its standard
 //! deviation is exact to a few percent.
+//!
+//! Some files hold gross errors, as a number mistyped: with the probability `Q` a reading is one with
+//! the probability `q`, and then anything within the range of its kind. The grid has a second, coarser
+//! part with gross errors, and no explanation decides which readings they are:
+//! `p(y) = (1 - q) N(y) + q U(y)`.
 
 use statrs::function::gamma::ln_gamma;
 
-/// Values of the scatter.
-pub(super) const GRID: usize = 16;
+use super::super::likelihood::GROSS_DENSITY;
+
+/// Values of the scatter without gross errors, one of them in so many of those with gross errors, and all together.
+const SCATTERS: usize = 12;
+const COARSER: usize = 3;
+pub(super) const GRID: usize = SCATTERS + (SCATTERS - 1) / COARSER + 1;
+/// Probability that a file holds gross errors, and of a reading there that it is one [1]; assumed.
+const WITH_GROSS: f64 = 0.05;
+const GROSS: f64 = 0.05;
+/// `ln(1 - GROSS)` [nats].
+const LOG_REGULAR: f64 = -0.051_293_294_387_550_53;
+/// Beyond this difference one of two terms is negligible [nats].
+const FAR: f64 = 36.0;
 /// Probability that readings scatter as their errors and counts say [1]; assumed.
 const COMPLETE: f64 = 0.8;
 /// Largest scatter: standard deviation of a reading, and correlation of a share, squared [1].
@@ -65,11 +81,57 @@ pub(super) struct GroupedReading {
     pub misfit: f64,
 }
 
-/// `constant - weight (y - mean)²` is the log density of a stated reading, for each scatter.
+/// `constant - weight (y - mean)²` is the log density of a stated reading that is no gross error, for each scatter.
 #[derive(Debug, Clone)]
 pub(super) struct NormalDensity {
     pub constant: OverGrid,
     pub weight: OverGrid,
+    /// Log density of a gross error [nats].
+    gross: f64,
+}
+
+impl NormalDensity {
+    /// Log density at a squared distance [1] for each scatter [nats]; `added` is part of it.
+    pub fn at(&self, square: f64, added: f64) -> OverGrid {
+        let gross = self.gross;
+        let mut density = self.constant;
+        for (place, (density, weight)) in density.iter_mut().zip(&self.weight).enumerate() {
+            *density = with_gross(place, *density + added - weight * square, gross);
+        }
+        density
+    }
+}
+
+/// The place of the same scatter without gross errors.
+fn without_gross(place: usize) -> usize {
+    place.checked_sub(SCATTERS).map_or(place, |coarse| COARSER * coarse)
+}
+
+/// Log density of a reading that may be a gross error where the grid has them, from those if it is none and if it is.
+#[inline]
+fn with_gross(place: usize, regular: f64, gross: f64) -> f64 {
+    if place < SCATTERS {
+        return regular;
+    }
+    let regular = regular + LOG_REGULAR;
+    match gross - regular {
+        odds if odds > FAR => gross,
+        odds if odds < -FAR => regular,
+        // Few terms of the logarithm's series take a third of its time.
+        odds if odds < -3.0 => {
+            let small = odds.exp();
+            regular + small * (1.0 - small * (0.5 - small / 3.0))
+        }
+        odds => regular + odds.exp().ln_1p(),
+    }
+}
+
+/// The probability that a reading is no gross error, for each scatter, from its log densities.
+pub(super) fn regular(density: &OverGrid) -> OverGrid {
+    std::array::from_fn(|place| match without_gross(place) {
+        same if same == place => 1.0,
+        without => (1.0 - GROSS) * (density[without] - density[place]).exp(),
+    })
 }
 
 /// Places of a predicted share, evenly over its log odds, at which the density of a count is tabled.
@@ -87,8 +149,9 @@ impl CountDensity {
         let place = (log_odds / OUTERMOST + 1.0) * 0.5 * (PLACES - 1) as f64;
         let below = (place.max(0.0) as usize).min(PLACES - 2);
         let share = (place - below as f64).clamp(0.0, 1.0);
-        let [low, high] = [&self.0[below], &self.0[below + 1]];
-        std::array::from_fn(|which| low[which] + share * (high[which] - low[which]))
+        let mut density = self.0[below];
+        density.iter_mut().zip(&self.0[below + 1]).for_each(|(low, high)| *low += share * (high - *low));
+        density
     }
 }
 
@@ -116,43 +179,60 @@ impl Group {
         let misfit = readings.iter().map(|one| one.misfit).fold(0.0, f64::max);
         let largest = (BEYOND_MISFIT * misfit).min(LARGEST[usize::from(counted)]);
         let range = (1.0 + largest / unit).ln().max(1.0);
-        let step = range / (GRID - 1) as f64;
-        // Probability of a scatter below the middle between a place and the next one.
-        let below =
-            |place: usize| (step * (place as f64 + 0.5)).exp_m1().sqrt().atan() * std::f64::consts::FRAC_2_PI;
-        let prior = |place: usize| match place {
-            0 => COMPLETE + (1.0 - COMPLETE) * below(0),
-            _ => (1.0 - COMPLETE) * (below(place) - below(place - 1)),
+        let step = range / (SCATTERS - 1) as f64;
+        // Probability of a scatter below the middle between a place and the next one, with places so far apart.
+        let below = |place: usize, apart: usize| {
+            let middle = apart as f64 * (place as f64 + 0.5);
+            (step * middle).exp_m1().sqrt().atan() * std::f64::consts::FRAC_2_PI
+        };
+        let prior = |place: usize, apart: usize| match place {
+            0 => COMPLETE + (1.0 - COMPLETE) * below(0, apart),
+            _ => (1.0 - COMPLETE) * (below(place, apart) - below(place - 1, apart)),
         };
         Self {
             kind,
             counted,
             unit,
-            squares: std::array::from_fn(|place| unit * (step * place as f64).exp_m1()),
-            prior: std::array::from_fn(|place| prior(place).ln()),
+            squares: std::array::from_fn(|place| unit * (step * without_gross(place) as f64).exp_m1()),
+            prior: std::array::from_fn(|place| match place.checked_sub(SCATTERS) {
+                None => ((1.0 - WITH_GROSS) * prior(place, 1)).ln(),
+                Some(place) => (WITH_GROSS * prior(place, COARSER)).ln(),
+            }),
         }
     }
 
     /// The density of a stated reading about a prediction.
     pub fn normal(&self, one: &GroupedReading) -> NormalDensity {
         let variance = self.squares.map(|square| one.own + square * one.with);
-        NormalDensity { constant: variance.map(|v| -0.5 * v.ln()), weight: variance.map(|v| 0.5 / v) }
+        NormalDensity {
+            constant: variance.map(|v| -0.5 * v.ln()),
+            weight: variance.map(|v| 0.5 / v),
+            gross: (GROSS * GROSS_DENSITY * std::f64::consts::TAU.sqrt()).ln(),
+        }
     }
 
     /// The density of a share `value` of a count.
     pub fn counted(&self, one: &GroupedReading, value: f64) -> CountDensity {
-        let at = |place: usize| {
+        let count = one.own;
+        let caught = value * count;
+        // Every count is as likely, and the binomial coefficient is left out.
+        let ways = ln_gamma(count + 1.0) - ln_gamma(caught + 1.0) - ln_gamma(count - caught + 1.0);
+        let gross = GROSS.ln() - (count + 1.0).ln() - ways;
+        let at = |place: usize| -> OverGrid {
             let log_odds = OUTERMOST * (2.0 * place as f64 / (PLACES - 1) as f64 - 1.0);
             let p = 1.0 / (1.0 + (-log_odds).exp());
             let correlation = |square: f64| (square + one.with).min(LARGEST_CORRELATION);
-            self.squares.map(|square| beta_binomial(value * one.own, one.own, p, correlation(square)))
+            let regular = |place: usize| beta_binomial(caught, count, p, correlation(self.squares[place]));
+            let regular: [f64; SCATTERS] = std::array::from_fn(regular);
+            std::array::from_fn(|place| with_gross(place, regular[without_gross(place)], gross))
         };
         CountDensity((0..PLACES).map(at).collect())
     }
 
     /// Logarithm of the mean likelihood over the scatter, from its logarithm for each [nats].
     pub fn log_mean(&self, likelihood: &OverGrid) -> f64 {
-        let sum: OverGrid = std::array::from_fn(|place| self.prior[place] + likelihood[place]);
+        let mut sum = self.prior;
+        sum.iter_mut().zip(likelihood).for_each(|(sum, one)| *sum += one);
         log_sum(&sum)
     }
 
@@ -190,7 +270,7 @@ mod tests {
             });
             let top = log(squares / f64::from(count));
             let steps = 20_000;
-            let last = (1.0 + group.squares[GRID - 1] / (error * error)).ln();
+            let last = (1.0 + group.squares[SCATTERS - 1] / (error * error)).ln();
             let at = |step: i32| last * (f64::from(step) + 0.5) / f64::from(steps);
             // Half-Cauchy over `ln(1 + s²/e²)`.
             let prior = |u: f64| std::f64::consts::FRAC_1_PI / u.exp_m1().sqrt();
@@ -200,6 +280,27 @@ mod tests {
             let found = group.log_mean(&likelihood) - top;
             assert!((found - mean.ln()).abs() < 0.15, "{count} {scatter}: {found} {}", mean.ln());
         }
+    }
+
+    /// With gross errors a density is still one: sums over 2 million values, of which a gross error can be those between 0
+    /// and 1.25. A reading 20 errors off is a gross error, one at 2 is not.
+    #[test]
+    fn a_gross_error_has_its_density() {
+        let reading = GroupedReading { own: 0.02_f64.powi(2), with: 1.0, misfit: 0.01 };
+        let group = Group::new(0, false, &[reading]);
+        let density = group.normal(&reading);
+        let (step, place) = (1e-5, SCATTERS);
+        let values = (-1_000_000..1_000_000).map(|at| 0.6 + step * f64::from(at));
+        let sum: f64 = values
+            .map(|y| {
+                let outside = if (0.0..1.25).contains(&y) { 0.0 } else { GROSS * 0.8 };
+                let density = density.at((y - 0.6).powi(2), 0.0)[place].exp() / std::f64::consts::TAU.sqrt();
+                (density - outside) * step
+            })
+            .sum();
+        assert!((sum - 1.0).abs() < 1e-6, "{sum}");
+        let [near, far] = [0.04_f64, 0.4].map(|off| regular(&density.at(off.powi(2), 0.0))[place]);
+        assert!(near > 0.95 && far < 1e-6, "{near} {far}");
     }
 
     /// The tabled density of a count against the exact beta-binomial between the places, and that sums over
@@ -216,7 +317,11 @@ mod tests {
             for caught in (0..=60).map(f64::from) {
                 let tabled = group.counted(&reading, caught / count).at((p / (1.0 - p)).ln());
                 for (which, square) in group.squares.iter().enumerate() {
-                    let exact = beta_binomial(caught, count, p, *square);
+                    let regular = beta_binomial(caught, count, p, *square);
+                    // Any count is as likely where it is a gross error.
+                    let gross = if which < SCATTERS { 0.0 } else { GROSS };
+                    let all = (1.0 - gross) * (regular + choose(caught)).exp() + gross / (count + 1.0);
+                    let exact = all.ln() - choose(caught);
                     assert!(
                         (tabled[which] - exact).abs() < 0.02,
                         "{caught} {p} {square}: {} {exact}",

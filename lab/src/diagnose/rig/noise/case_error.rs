@@ -10,6 +10,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
+use super::super::scatter::regular;
 use super::{Data, FittedScatter, Noise, PreparedReading, PreparedReadings, WeightedGroup, WeightedValues};
 use crate::rig::{PredictedReading, slope};
 
@@ -171,11 +172,14 @@ fn normal_matrix(changes: &[Vec<f64>], slopes: &[ReadingSlope]) -> DMatrix<f64> 
 impl WeightedGroup<'_> {
     fn slopes(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> Vec<ReadingSlope> {
         let probable = self.group.probabilities(&self.likelihood(prepared, weighted.values));
-        let one = |(index, times, weights): &(usize, f64, Option<&super::OverGrid>)| {
+        let one = |(index, times, normal): &(usize, f64, Option<&super::NormalDensity>)| {
             let value = weighted.values.value[*index];
-            match (prepared.rows[*index], weights, &weighted.values.counted[*index]) {
-                (PreparedReading::Normal { mean, trust }, Some(weights), _) => {
-                    let weight: f64 = weights.iter().zip(&probable).map(|(w, p)| w * p).sum();
+            match (prepared.rows[*index], normal, &weighted.values.counted[*index]) {
+                (PreparedReading::Normal { mean, trust }, Some(normal), _) => {
+                    // A gross error pulls at nothing.
+                    let regular = regular(&normal.at(trust.share * (value - mean).powi(2), trust.half_log));
+                    let each = normal.weight.iter().zip(&regular).zip(&probable);
+                    let weight: f64 = each.map(|((w, regular), p)| w * regular * p).sum();
                     let curvature = 2.0 * times * trust.share * weight;
                     Some((*index, curvature * (value - mean), curvature))
                 }
