@@ -18,8 +18,8 @@ const CASE: &str = "model = \"base.toml\"\n[run]\ntime_limit = 10\ngravity = [0,
                     speed = 2\ntemperature = 300\n[[walls]]\nname = \"target\"\nshape = \"plane\"\npoint = [0, 0, 0]\n\
                     normal = [0, 0, 1]\ntemperature = 295\n";
 
-/// What is found where so much of what is molten sticks: name and parameters of each cause, sorted, and the verdict.
-fn found(temperatures: &[f64], ceiling: f64) -> (Vec<(String, Value)>, String) {
+/// The readings where so much of what is molten sticks.
+fn measured(temperatures: &[f64], ceiling: f64) -> String {
     let [middle, width, softening] = PLANTED;
     let mut data = String::from("particles.temperature,captured@target,captured@target_n,mean_e_n@target");
     data += ",mean_e_n@target_err\n";
@@ -31,7 +31,12 @@ fn found(temperatures: &[f64], ceiling: f64) -> (Vec<(String, Value)>, String) {
         let mean = if caught < 0.97 { format!("{restitution:.4},0.004") } else { ",".to_owned() };
         data += &format!("{temperature},{caught},400,{mean}\n");
     }
-    let folder = folder(&[("case.toml", CASE), ("base.toml", BASE), ("measured.csv", &data)]);
+    data
+}
+
+/// What is found: name and parameters of each cause, sorted, and the verdict.
+fn found(data: &str) -> (Vec<(String, Value)>, String) {
+    let folder = folder(&[("case.toml", CASE), ("base.toml", BASE), ("measured.csv", data)]);
     let said = done(folder.path(), &["diagnose", "measured.csv", "--case", "case.toml", "--out", "out"]);
     let text = std::fs::read_to_string(folder.path().join("out/diagnosis.json")).unwrap();
     let found: Value = serde_json::from_str(&text).unwrap();
@@ -52,7 +57,7 @@ fn holds(stated: &Value, planted: f64) -> bool {
 #[test]
 fn softening_is_fitted_with_the_place_and_the_width_of_melting() {
     let temperatures = [310.0, 330.0, 342.0, 348.0, 352.0, 356.0, 360.0, 366.0, 372.0, 500.0];
-    let (causes, said) = found(&temperatures, 1.0);
+    let (causes, said) = found(&measured(&temperatures, 1.0));
     assert!(causes.len() == 1 && causes[0].0 == "melting-transition", "{said}");
     for (name, planted) in ["temperature", "width", "softening"].into_iter().zip(PLANTED) {
         assert!(holds(&causes[0].1[name], planted), "{name}: {said}");
@@ -63,11 +68,31 @@ fn softening_is_fitted_with_the_place_and_the_width_of_melting() {
 #[test]
 fn a_ceiling_of_captures_is_found_beside_melting() {
     let temperatures = [310.0, 325.0, 340.0, 346.0, 351.0, 355.0, 359.0, 364.0, 372.0, 380.0, 390.0, 400.0];
-    let (causes, said) = found(&temperatures, 0.7);
+    let (causes, said) = found(&measured(&temperatures, 0.7));
     assert_eq!(causes.len(), 2, "{said}");
     assert!(causes[0].0 == "capture-ceiling" && holds(&causes[0].1["share"], 0.7), "{said}");
     assert_eq!(causes[1].0, "melting-transition", "{said}");
     for (name, planted) in ["temperature", "width", "softening"].into_iter().zip(PLANTED) {
         assert!(holds(&causes[1].1[name], planted), "{name}: {said}");
     }
+}
+
+/// Two digits are wrong: 0.19 for 0.50, the restitution of the coldest, which no law explains. Without the chance of gross
+/// errors it outweighs melting.
+#[test]
+fn a_mistyped_reading_hides_no_law_and_is_said() {
+    let temperatures = [310.0, 330.0, 342.0, 348.0, 352.0, 356.0, 360.0, 366.0, 372.0];
+    let data = measured(&temperatures, 1.0);
+    let mistyped = data.replacen(",0.5000,", ",0.1900,", 1);
+    assert_ne!(data, mistyped);
+    let (causes, said) = found(&mistyped);
+    assert!(causes.len() == 1 && causes[0].0 == "melting-transition", "{said}");
+    for (name, planted) in ["temperature", "width", "softening"].into_iter().zip(PLANTED) {
+        assert!(holds(&causes[0].1[name], planted), "{name}: {said}");
+    }
+    assert!(
+        said.contains("Line 2 counts as a gross error (probability 1.00): mean_e_n is 0.19 where"),
+        "{said}"
+    );
+    assert!(!said.contains("A misfit is left"), "{said}");
 }

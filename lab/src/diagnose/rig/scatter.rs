@@ -30,7 +30,7 @@ use statrs::function::gamma::ln_gamma;
 use super::super::likelihood::GROSS_DENSITY;
 
 /// Values of the scatter without gross errors, one of them in so many of those with gross errors, and all together.
-const SCATTERS: usize = 12;
+const SCATTERS: usize = 16;
 const COARSER: usize = 3;
 pub(super) const GRID: usize = SCATTERS + (SCATTERS - 1) / COARSER + 1;
 /// Probability that a file holds gross errors, and of a reading there that it is one [1]; assumed.
