@@ -93,12 +93,9 @@ pub(super) struct NormalDensity {
 impl NormalDensity {
     /// Log density at a squared distance [1] for each scatter [nats]; `added` is part of it.
     pub fn at(&self, square: f64, added: f64) -> OverGrid {
-        let gross = self.gross;
-        let mut density = self.constant;
-        for (place, (density, weight)) in density.iter_mut().zip(&self.weight).enumerate() {
-            *density = with_gross(place, *density + added - weight * square, gross);
-        }
-        density
+        std::array::from_fn(|place| {
+            with_gross(place, self.constant[place] + added - self.weight[place] * square, self.gross)
+        })
     }
 }
 
@@ -149,9 +146,8 @@ impl CountDensity {
         let place = (log_odds / OUTERMOST + 1.0) * 0.5 * (PLACES - 1) as f64;
         let below = (place.max(0.0) as usize).min(PLACES - 2);
         let share = (place - below as f64).clamp(0.0, 1.0);
-        let mut density = self.0[below];
-        density.iter_mut().zip(&self.0[below + 1]).for_each(|(low, high)| *low += share * (high - *low));
-        density
+        let [low, high] = [&self.0[below], &self.0[below + 1]];
+        std::array::from_fn(|which| low[which] + share * (high[which] - low[which]))
     }
 }
 
@@ -231,8 +227,7 @@ impl Group {
 
     /// Logarithm of the mean likelihood over the scatter, from its logarithm for each [nats].
     pub fn log_mean(&self, likelihood: &OverGrid) -> f64 {
-        let mut sum = self.prior;
-        sum.iter_mut().zip(likelihood).for_each(|(sum, one)| *sum += one);
+        let sum: OverGrid = std::array::from_fn(|place| self.prior[place] + likelihood[place]);
         log_sum(&sum)
     }
 
