@@ -78,7 +78,7 @@ fn a_ceiling_of_captures_is_found_beside_melting() {
 }
 
 /// Two digits are wrong: 0.19 for 0.50, the restitution of the coldest, which no law explains. Without the chance of gross
-/// errors it outweighs melting.
+/// errors a further cause is claimed, the softening is anything from 0.14 to 0.67, and a misfit is left.
 #[test]
 fn a_mistyped_reading_hides_no_law_and_is_said() {
     let temperatures = [310.0, 330.0, 342.0, 348.0, 352.0, 356.0, 360.0, 366.0, 372.0];
@@ -94,5 +94,5 @@ fn a_mistyped_reading_hides_no_law_and_is_said() {
         said.contains("Line 2 counts as a gross error (probability 1.00): mean_e_n is 0.19 where"),
         "{said}"
     );
-    assert!(!said.contains("A misfit is left"), "{said}");
+    assert!(!said.contains("A misfit is left") && !said.contains("further cause"), "{said}");
 }

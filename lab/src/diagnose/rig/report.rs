@@ -138,7 +138,7 @@ impl RigFindings<'_> {
             diagnosis.verdict += " A replay names one cause at a time: run the cases again with extended.toml, and \
                 diagnose their new record for more.";
         }
-        diagnosis.verdict += &self.gross_errors(&extended);
+        diagnosis.verdict += &self.gross_error_sentences(&extended);
         let scatter = study.data.scatter(&extended, &vec![1.0; study.data.experiments]);
         Ok(RigDiagnosis {
             diagnosis,
@@ -224,7 +224,7 @@ impl RigFindings<'_> {
         Ok((findings, calibration))
     }
 
-    /// Of these readings.
+    /// How well predictions fit these readings with so many parameters fitted.
     fn fit_test(
         &self,
         predicted: &[PredictedReading],
@@ -270,7 +270,7 @@ impl RigFindings<'_> {
     }
 
     /// A sentence on each reading that counts as a gross error about predictions.
-    fn gross_errors(&self, predicted: &[PredictedReading]) -> String {
+    fn gross_error_sentences(&self, predicted: &[PredictedReading]) -> String {
         let Self { study, .. } = self;
         let data = &study.data;
         let note = |(index, gross): (usize, f64)| {

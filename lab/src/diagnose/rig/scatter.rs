@@ -36,8 +36,6 @@ pub(super) const GRID: usize = SCATTERS + (SCATTERS - 1) / COARSER + 1;
 /// Probability that a file holds gross errors, and of a reading there that it is one [1]; assumed.
 const WITH_GROSS: f64 = 0.05;
 const GROSS: f64 = 0.05;
-/// `ln(1 - GROSS)` [nats].
-const LOG_REGULAR: f64 = -0.051_293_294_387_550_53;
 /// Beyond this difference one of two terms is negligible [nats].
 const FAR: f64 = 36.0;
 /// Probability that readings scatter as their errors and counts say [1]; assumed.
@@ -86,15 +84,15 @@ pub(super) struct GroupedReading {
 pub(super) struct NormalDensity {
     pub constant: OverGrid,
     pub weight: OverGrid,
-    /// Log density of a gross error [nats].
-    gross: f64,
 }
 
 impl NormalDensity {
     /// Log density at a squared distance [1] for each scatter [nats]; `added` is part of it.
     pub fn at(&self, square: f64, added: f64) -> OverGrid {
+        // Without the factor of a normal density, as the others.
+        let gross = (GROSS * GROSS_DENSITY * std::f64::consts::TAU.sqrt()).ln();
         std::array::from_fn(|place| {
-            with_gross(place, self.constant[place] + added - self.weight[place] * square, self.gross)
+            with_gross(place, self.constant[place] + added - self.weight[place] * square, gross)
         })
     }
 }
@@ -110,7 +108,7 @@ fn with_gross(place: usize, regular: f64, gross: f64) -> f64 {
     if place < SCATTERS {
         return regular;
     }
-    let regular = regular + LOG_REGULAR;
+    let regular = regular + (1.0 - GROSS).ln();
     match gross - regular {
         odds if odds > FAR => gross,
         odds if odds < -FAR => regular,
@@ -200,11 +198,7 @@ impl Group {
     /// The density of a stated reading about a prediction.
     pub fn normal(&self, one: &GroupedReading) -> NormalDensity {
         let variance = self.squares.map(|square| one.own + square * one.with);
-        NormalDensity {
-            constant: variance.map(|v| -0.5 * v.ln()),
-            weight: variance.map(|v| 0.5 / v),
-            gross: (GROSS * GROSS_DENSITY * std::f64::consts::TAU.sqrt()).ln(),
-        }
+        NormalDensity { constant: variance.map(|v| -0.5 * v.ln()), weight: variance.map(|v| 0.5 / v) }
     }
 
     /// The density of a share `value` of a count.

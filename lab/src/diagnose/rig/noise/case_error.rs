@@ -10,7 +10,7 @@
 
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::super::scatter::regular;
+use super::super::scatter::{NormalDensity, regular};
 use super::{Data, FittedScatter, Noise, PreparedReading, PreparedReadings, WeightedGroup, WeightedValues};
 use crate::rig::{PredictedReading, slope};
 
@@ -172,7 +172,7 @@ fn normal_matrix(changes: &[Vec<f64>], slopes: &[ReadingSlope]) -> DMatrix<f64> 
 impl WeightedGroup<'_> {
     fn slopes(&self, prepared: &PreparedReadings, weighted: &WeightedValues<'_>) -> Vec<ReadingSlope> {
         let probable = self.group.probabilities(&self.likelihood(prepared, weighted.values));
-        let one = |(index, times, normal): &(usize, f64, Option<&super::NormalDensity>)| {
+        let one = |(index, times, normal): &(usize, f64, Option<&NormalDensity>)| {
             let value = weighted.values.value[*index];
             match (prepared.rows[*index], normal, &weighted.values.counted[*index]) {
                 (PreparedReading::Normal { mean, trust }, Some(normal), _) => {
