@@ -114,6 +114,9 @@ const PARTICLE_RANGE: [u64; 2] = [128, 1024];
 const HITS: [f64; 2] = [256.0, 512.0];
 /// Monte Carlo variance that is small beside that of a reading [1].
 const SMALL_VARIANCE: f64 = 0.1;
+/// Number of particles that may show what none of them showed, and its variance [1]: half a count, Jeffreys' prior of a
+/// share.
+const UNSEEN: f64 = 0.5;
 /// At most so many times as many follow the base law [1]; fewer where the Monte Carlo variance needs no more.
 const BASE_PARTICLES: u64 = 4;
 /// Particles that follow the base law over those that tell what a number of the case changes [1]: with the same random
@@ -218,6 +221,13 @@ fn variance(reading: &RigReading, predicted: f64) -> f64 {
     }
 }
 
+/// Monte Carlo variance of a predicted value [1]: that of a share of which no particle tells is not nothing, since half
+/// a particle more or less would go unseen.
+fn known_variance(reading: &RigReading, predicted: &PredictedReading) -> f64 {
+    let unseen = if reading.quantity.is_share() { UNSEEN / predicted.particles.powi(2) } else { 0.0 };
+    predicted.variance.max(unseen)
+}
+
 impl<'a> Paths<'a> {
     /// With as many particles as the readings need, within what their hits cost.
     fn adapted(rig: &'a RigCase) -> Result<Self, PredictionError> {
@@ -230,7 +240,7 @@ impl<'a> Paths<'a> {
             let (predicted, hits) = paths.tallied(&rig.case.model)?;
             let readings = &rig.experiment.readings;
             let share = |(reading, one): (&RigReading, &PredictedReading)| {
-                let share = one.variance / (SMALL_VARIANCE * variance(reading, one.value));
+                let share = known_variance(reading, one) / (SMALL_VARIANCE * variance(reading, one.value));
                 if share.is_finite() { share } else { 0.0 }
             };
             let largest = readings.iter().zip(&predicted).map(share).fold(0.0, f64::max);
