@@ -111,7 +111,7 @@ impl HeldOutRows {
         let seen = optimistic.and_then(|seen| seen.gain(observable, measured, noise, seed, None));
         let least = seen.map_or(f64::INFINITY, |seen| seen.ci95[0]);
         Some(Gain {
-            held_out_rows: count as usize,
+            held_out_rows: rows.len(),
             measured,
             noise_floor: noise,
             observable: observable.name(),

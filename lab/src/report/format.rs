@@ -96,6 +96,7 @@ pub fn percent(share: f64) -> String {
     match value.abs() {
         size if !size.is_finite() => "–".to_owned(),
         0.0 => "0 %".to_owned(),
+        100.0 => format!("{value} %"),
         size if size >= 0.1 => format!("{value:.1} %"),
         size if size >= 1e-4 => format!("{value:.*} %", (1.0 - size.log10().floor()) as usize),
         _ => format!("{value:.1e} %"),
@@ -179,7 +180,7 @@ mod tests {
     #[test]
     fn shares_keep_two_digits() {
         let short = [0.0, 0.1234, 0.000_057, 1.0, 1e-9, f64::NAN].map(percent);
-        assert_eq!(short, ["0 %", "12.3 %", "0.0057 %", "100.0 %", "1.0e-7 %", "–"]);
+        assert_eq!(short, ["0 %", "12.3 %", "0.0057 %", "100 %", "1.0e-7 %", "–"]);
     }
 
     #[test]

@@ -105,25 +105,25 @@ fn named(effect: &NumberEffect) -> String {
     format!("{}: {range}", effect.name)
 }
 
-/// What a wall captures at both ends of the ranges of the numbers that change it most, in the order of the table.
+/// What a wall captures at both ends of the ranges of the numbers that change it most, the largest change first.
 fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
-    let of_wall = |effect: &'_ NumberEffect| effect.walls.get(wall).map(|on_wall| on_wall.change);
-    let mut changes: Vec<f64> = found.numbers.iter().filter_map(of_wall).collect();
-    changes.sort_by(|a, b| b.total_cmp(a));
-    let largest = *changes.first()?;
-    let least = changes.get(SHOWN_NUMBERS - 1).copied().unwrap_or(0.0).max(LEAST_SHOWN * largest);
-    let base = found.numbers.first()?.walls.get(wall)?;
+    let of_wall = |effect: &'_ NumberEffect| effect.walls.get(wall).map_or(0.0, |on_wall| on_wall.change);
+    let mut numbers: Vec<&NumberEffect> = found.numbers.iter().collect();
+    numbers.sort_by(|a, b| of_wall(b).total_cmp(&of_wall(a)));
+    let first = *numbers.first()?;
+    let base = first.walls.get(wall)?;
+    numbers.retain(|effect| of_wall(effect) > 0.0 && of_wall(effect) >= LEAST_SHOWN * of_wall(first));
     let row = |effect: &NumberEffect| {
-        let on_wall = effect.walls.get(wall).filter(|one| one.change > 0.0 && one.change >= least)?;
+        let on_wall = effect.walls.get(wall)?;
         let results = [on_wall.captured_low, on_wall.captured_high];
         let ends = ends(effect);
         let said = |side: usize| format!("{}: {} captured", ends[side], percent(results[side]));
         let ends = [said(0), said(1)];
         Some(TornadoRow { name: named(effect), results: results.map(|share| 100.0 * share), ends })
     };
-    let rows = found.numbers.iter().filter_map(row).take(SHOWN_NUMBERS).collect();
+    let rows = numbers.into_iter().take(SHOWN_NUMBERS).filter_map(row).collect();
     let title = format!("Captured at {}", base.wall);
-    let caption = "Share of the injected mass; the numbers that change it most, in the order of the table.";
+    let caption = "Share of the injected mass; the numbers that change it most, the largest change first.";
     let texts = [&format!("sensitivity-{wall}"), &title, caption, "captured [% of the injected mass]"];
     tornado(texts, 100.0 * base.captured, rows)
 }

@@ -223,7 +223,7 @@ fn variance(reading: &RigReading, predicted: f64) -> f64 {
 
 /// Monte Carlo variance of a predicted value [1]: that of a share of which no particle tells is not nothing, since half
 /// a particle more or less would go unseen.
-fn known_variance(reading: &RigReading, predicted: &PredictedReading) -> f64 {
+fn possible_variance(reading: &RigReading, predicted: &PredictedReading) -> f64 {
     let unseen = if reading.quantity.is_share() { UNSEEN / predicted.particles.powi(2) } else { 0.0 };
     predicted.variance.max(unseen)
 }
@@ -238,14 +238,17 @@ impl<'a> Paths<'a> {
                 return Ok(paths);
             }
             let (predicted, hits) = paths.tallied(&rig.case.model)?;
-            let readings = &rig.experiment.readings;
-            let share = |(reading, one): (&RigReading, &PredictedReading)| {
-                let share = known_variance(reading, one) / (SMALL_VARIANCE * variance(reading, one.value));
-                if share.is_finite() { share } else { 0.0 }
+            let largest = |known: &dyn Fn(&RigReading, &PredictedReading) -> f64| {
+                let share = |(reading, one): (&RigReading, &PredictedReading)| {
+                    let share = known(reading, one) / (SMALL_VARIANCE * variance(reading, one.value));
+                    if share.is_finite() { share } else { 0.0 }
+                };
+                rig.experiment.readings.iter().zip(&predicted).map(share).fold(0.0, f64::max)
             };
-            let largest = readings.iter().zip(&predicted).map(share).fold(0.0, f64::max);
-            if particles >= most || hits >= HITS[usize::from(largest > 1.0)] {
-                return paths.with_base(largest.ceil().clamp(1.0, BASE_PARTICLES as f64) as u64);
+            let is_noisy = largest(&|_, one| one.variance) > 1.0;
+            if particles >= most || hits >= HITS[usize::from(is_noisy)] {
+                let needed = largest(&possible_variance).ceil();
+                return paths.with_base(needed.clamp(1.0, BASE_PARTICLES as f64) as u64);
             }
             particles *= 2;
         }

@@ -42,7 +42,7 @@ fn fill_single(table: &mut Table, run: &RunResults) {
         rows.iter_mut().for_each(|row| drop(row.remove(1)));
     }
     table.caption = match run.residual {
-        Some(residual) => format!("Injected minus all other terms, over injected: {residual:.1e}."),
+        Some(residual) => format!("Injected minus all other terms, over injected: {}.", number(residual)),
         None => "The stock models keep no balance.".to_owned(),
     };
 }
