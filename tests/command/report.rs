@@ -422,7 +422,7 @@ fn two_clouds_of_a_case_are_told_apart() {
         "Regime of capture, case coalCloud1",
         "Regime of capture, case limestone",
         "<figure id=\"regimes-1\"",
-        "100.0 % of the captured mass of case limestone",
+        "100 % of the captured mass of case limestone",
         "Captured parcels, case coalCloud1",
     ] {
         assert!(page.contains(part), "`{part}` is not on the page");
