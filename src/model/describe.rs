@@ -5,6 +5,7 @@ use super::{Model, Wall};
 use crate::effect::{CurveInput, Term};
 use crate::group::GROUPS;
 use crate::law::{Origin, Parameter, describe_values};
+use crate::material::Material;
 use crate::normal::NormalLaw;
 use crate::tangential::TangentialLaw;
 
@@ -14,6 +15,18 @@ const ROOM_TEMPERATURE: f64 = 293.15;
 /// Of a wall whose slag has no critical viscosity temperature.
 const UNKNOWN_STIFFENING: &str = " that counts as a liquid at every temperature: it is outside the range of Watt's \
     equation, and has neither critical_viscosity_temperature nor fusion_temperatures";
+
+/// An analysis that adds up to less leaves out enough to change a viscosity, or has a slip [wt%].
+const LEAST_SUM: f64 = 90.0;
+
+/// A remark where the analysis of a material leaves much out.
+fn incomplete(material: &Material) -> Option<(&'static str, String)> {
+    let sum = material.composition()?.given_sum();
+    let name = material.name();
+    let note =
+        format!("the composition of {name} adds up to {sum:.1} wt% and is taken as 100; check the sheet");
+    (sum < LEAST_SUM).then_some(("note", note))
+}
 
 impl Model {
     /// The content of the model as pairs of a heading and its numbers with units, in the order of
@@ -71,6 +84,7 @@ impl Model {
                     lines.push(line);
                 }
             }
+            lines.extend(incomplete(material).filter(|line| !lines.contains(line)));
         }
         lines
     }

@@ -135,6 +135,8 @@ impl Oxide {
 pub struct Composition {
     /// [wt%], by [`Oxide`] as index; their sum is 100.
     shares: [f64; Oxide::ALL.len()],
+    /// Their sum as given [wt%].
+    given: f64,
 }
 
 impl Composition {
@@ -164,7 +166,13 @@ impl Composition {
             return Err(CompositionError::Empty);
         }
         let total: f64 = shares.iter().map(|share| share / largest).sum();
-        Ok(Self { shares: shares.map(|share| 100.0 * (share / largest) / total) })
+        let given = total * largest;
+        Ok(Self { shares: shares.map(|share| 100.0 * (share / largest) / total), given })
+    }
+
+    /// What the shares of the analysis added up to before they were scaled [wt%].
+    pub fn given_sum(&self) -> f64 {
+        self.given
     }
 
     /// Share of an oxide [wt%], scaled so that all oxides add up to 100.

@@ -355,6 +355,20 @@ fn a_deposit_is_solid_below_the_flow_temperature() {
     assert_eq!(line, "own: deformation 1300 ± 40 K, flow 1500 ± 40 K (90 % band, given)");
 }
 
+/// A slip that makes a sheet too small, as 22 % SiO2 for 52 %, is said; a whole sheet needs no remark.
+#[test]
+fn a_sheet_that_leaves_much_out_is_said() {
+    let notes = |silica: f64| -> Vec<String> {
+        let rest = "Al2O3 = 25, Fe2O3 = 8, CaO = 8, MgO = 3, K2O = 3";
+        let sheet = format!("composition = {{ SiO2 = {silica}, {rest} }}");
+        let lines = model("model = \"fusion\"", &sheet).describe();
+        lines.into_iter().filter(|line| line.0 == "note").map(|line| line.1).collect()
+    };
+    assert_eq!(notes(52.0), Vec::<String>::new());
+    let said = "the composition of own adds up to 69.0 wt% and is taken as 100; check the sheet";
+    assert_eq!(notes(22.0), [said]);
+}
+
 #[test]
 fn compositions_that_no_fitted_ash_has_are_refused() {
     let refused = |oxides: &[(&str, f64)]| {

@@ -75,8 +75,8 @@ fn table(found: &Sensitivity) -> (Table, Vec<RowStatus>) {
     });
     let table = Table {
         caption:
-            "Marked: an assumed number, whose range is assumed too. × and + stand before a factor and a \
-            difference that apply to all values of a table or a list."
+            "Orange: number and range are assumed. Green: one of them is stated, see range and source. × and + stand \
+            before a factor and a difference that apply to all values of a table or a list."
                 .to_owned(),
         header,
         rows: rows.iter().map(cells).collect(),
