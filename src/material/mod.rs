@@ -188,6 +188,11 @@ impl Material {
         self.composition.as_ref()
     }
 
+    /// What its analysis adds up to [wt%], where that is too little for a whole sheet.
+    pub fn incomplete_sum(&self) -> Option<f64> {
+        self.composition.as_ref().map(Composition::given_sum).filter(|sum| *sum < LEAST_SUM)
+    }
+
     /// A property by its key, for instance `youngs_modulus`.
     pub fn property(&self, key: &str) -> Option<&Property> {
         let index = PROPERTY_FIELDS.iter().position(|field| field.key == key)?;
@@ -473,8 +478,10 @@ fn how_to_give(field: &PropertyField, composition: Option<&Composition>) -> Stri
     }
 }
 
-/// An analysis that adds up to more has a slip [wt%]; one to less leaves something out.
+/// An analysis that adds up to more has a slip [wt%].
 const LARGEST_SUM: f64 = 110.0;
+/// One that adds up to less has a slip, or leaves out enough to change a viscosity [wt%].
+const LEAST_SUM: f64 = 90.0;
 
 fn read_composition(section: &Section<'_>) -> Result<Composition, InputError> {
     const NOTES: [&str; 2] = ["unit", "source"];

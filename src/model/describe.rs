@@ -16,16 +16,12 @@ const ROOM_TEMPERATURE: f64 = 293.15;
 const UNKNOWN_STIFFENING: &str = " that counts as a liquid at every temperature: it is outside the range of Watt's \
     equation, and has neither critical_viscosity_temperature nor fusion_temperatures";
 
-/// An analysis that adds up to less leaves out enough to change a viscosity, or has a slip [wt%].
-const LEAST_SUM: f64 = 90.0;
-
 /// A remark where the analysis of a material leaves much out.
 fn incomplete(material: &Material) -> Option<(&'static str, String)> {
-    let sum = material.composition()?.given_sum();
-    let name = material.name();
+    let (name, sum) = (material.name(), material.incomplete_sum()?);
     let note =
         format!("the composition of {name} adds up to {sum:.1} wt% and is taken as 100; check the sheet");
-    (sum < LEAST_SUM).then_some(("note", note))
+    Some(("note", note))
 }
 
 impl Model {
@@ -69,7 +65,7 @@ impl Model {
     /// What decides the stickiness of the particles and has a band, and the properties of the materials in use that
     /// follow from a composition, each with the error that its law states. Fusion temperatures and viscosity have 90 %
     /// bands; density, elastic constants and surface tension a bound; the temperature of critical viscosity after Watt
-    /// and all that is given or built in have none.
+    /// and all that is given or built in have none. And a remark where an analysis leaves much out.
     pub fn estimates(&self) -> Vec<(&'static str, String)> {
         let of_walls = self
             .walls

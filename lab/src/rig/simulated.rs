@@ -114,8 +114,7 @@ const PARTICLE_RANGE: [u64; 2] = [128, 1024];
 const HITS: [f64; 2] = [256.0, 512.0];
 /// Monte Carlo variance that is small beside that of a reading [1].
 const SMALL_VARIANCE: f64 = 0.1;
-/// Number of particles that may show what none of them showed, and its variance [1]: half a count, Jeffreys' prior of a
-/// share.
+/// Variance of a count of 0 [1]: half a particle, as Jeffreys' prior of a share counts.
 const UNSEEN: f64 = 0.5;
 /// At most so many times as many follow the base law [1]; fewer where the Monte Carlo variance needs no more.
 const BASE_PARTICLES: u64 = 4;
@@ -221,11 +220,16 @@ fn variance(reading: &RigReading, predicted: f64) -> f64 {
     }
 }
 
-/// Monte Carlo variance of a predicted value [1]: that of a share of which no particle tells is not nothing, since half
-/// a particle more or less would go unseen.
+/// Monte Carlo variance of a predicted value [1]; a share that no particle shows, or all of them, is not known exactly.
 fn possible_variance(reading: &RigReading, predicted: &PredictedReading) -> f64 {
     let unseen = if reading.quantity.is_share() { UNSEEN / predicted.particles.powi(2) } else { 0.0 };
     predicted.variance.max(unseen)
+}
+
+/// The largest of some Monte Carlo variances over what is small beside that of their readings [1].
+fn largest_share<'r>(known: impl Iterator<Item = (f64, &'r RigReading, &'r PredictedReading)>) -> f64 {
+    let shares = known.map(|(own, reading, one)| own / (SMALL_VARIANCE * variance(reading, one.value)));
+    shares.filter(|share| share.is_finite()).fold(0.0, f64::max)
 }
 
 impl<'a> Paths<'a> {
@@ -238,17 +242,13 @@ impl<'a> Paths<'a> {
                 return Ok(paths);
             }
             let (predicted, hits) = paths.tallied(&rig.case.model)?;
-            let largest = |known: &dyn Fn(&RigReading, &PredictedReading) -> f64| {
-                let share = |(reading, one): (&RigReading, &PredictedReading)| {
-                    let share = known(reading, one) / (SMALL_VARIANCE * variance(reading, one.value));
-                    if share.is_finite() { share } else { 0.0 }
-                };
-                rig.experiment.readings.iter().zip(&predicted).map(share).fold(0.0, f64::max)
-            };
-            let is_noisy = largest(&|_, one| one.variance) > 1.0;
-            if particles >= most || hits >= HITS[usize::from(is_noisy)] {
-                let needed = largest(&possible_variance).ceil();
-                return paths.with_base(needed.clamp(1.0, BASE_PARTICLES as f64) as u64);
+            let readings = || rig.experiment.readings.iter().zip(&predicted);
+            let seen = largest_share(readings().map(|(reading, one)| (one.variance, reading, one)));
+            if particles >= most || hits >= HITS[usize::from(seen > 1.0)] {
+                let possible =
+                    readings().map(|(reading, one)| (possible_variance(reading, one), reading, one));
+                let times = largest_share(possible).ceil().clamp(1.0, BASE_PARTICLES as f64);
+                return paths.with_base(times as u64);
             }
             particles *= 2;
         }
