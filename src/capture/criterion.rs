@@ -383,6 +383,11 @@ pub trait StickinessCriterion: std::fmt::Debug + Send + Sync {
         self.known_range()
     }
 
+    /// The compositions for which it is stated, in words, where this material's is none of them.
+    fn stated_for(&self) -> Option<&'static str> {
+        None
+    }
+
     /// Speed towards the wall [m/s] up to which the criterion is stated; infinite for one that knows the speed.
     fn fastest(&self) -> f64 {
         f64::INFINITY

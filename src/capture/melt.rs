@@ -193,6 +193,14 @@ impl Melt {
         }
     }
 
+    /// The compositions for which its law of viscosity is stated, in words, where this one is none of them.
+    pub fn stated_for(&self) -> Option<&'static str> {
+        match &self.viscosity {
+            MeltViscosity::Oxides(slag) if slag.range().is_none() => Some(slag.law().stated_for),
+            _ => None,
+        }
+    }
+
     /// Temperatures [K] at which the viscosity is known; crystals need none.
     pub fn known_range(&self) -> [f64; 2] {
         match &self.viscosity {

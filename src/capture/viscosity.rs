@@ -283,6 +283,10 @@ impl StickinessCriterion for MeltStickiness {
         self.melt.stated_range()
     }
 
+    fn stated_for(&self) -> Option<&'static str> {
+        self.melt.stated_for()
+    }
+
     fn fastest(&self) -> f64 {
         match self.criterion.reference {
             ReferenceViscosity::Constant(_) => FASTEST_WITHOUT_SPEED,

@@ -38,6 +38,30 @@ impl Library {
         BUILT_IN.clone()
     }
 
+    /// The built-in materials and those of the table `materials` of a model file.
+    ///
+    /// # Errors
+    /// As [`Library::with`].
+    pub fn of_model(top: &Section<'_>) -> Result<Self, InputError> {
+        let library = Self::built_in()?;
+        let Some(own) = top.section("materials")? else { return Ok(library) };
+        let library = library.with(&own)?;
+        own.finish()?;
+        Ok(library)
+    }
+
+    /// The same of a whole file, whose other tables are not looked at.
+    ///
+    /// # Errors
+    /// As [`Library::with`], and [`InputError`] for text that is not TOML.
+    pub fn of_file(document: &Document) -> Result<Self, InputError> {
+        document.read(|top| {
+            // All other keys count as known.
+            top.keys().iter().for_each(|key| _ = top.has(key));
+            Self::of_model(top)
+        })
+    }
+
     /// Adds every table of `section`, in the order of the file; a material of the same name is
     /// replaced. A table with `like` extends a material that was there before it.
     ///

@@ -69,7 +69,10 @@ pub enum Limit<'m> {
         range: [f64; 2],
     },
     /// Of the compositions to which a law was fitted.
-    Composition,
+    Composition {
+        /// These compositions in words, where they are known.
+        stated_for: Option<&'static str>,
+    },
 }
 
 impl Beyond<'_> {
@@ -85,7 +88,10 @@ impl Beyond<'_> {
             Limit::Quantity { name, unit, range: [low, high], .. } => {
                 format!("{} is stated for {name} {}", self.what, range_text(low, high, unit))
             }
-            Limit::Composition => format!("{} is not stated for the composition", self.what),
+            Limit::Composition { stated_for } => {
+                let only = stated_for.map_or(String::new(), |words| format!(", only for {words}"));
+                format!("{} is not stated for the composition{only}", self.what)
+            }
         }
     }
 
@@ -94,7 +100,7 @@ impl Beyond<'_> {
         match self.limit {
             Limit::Quantity { value, .. } if value.is_nan() => Some("no value".to_owned()),
             Limit::Quantity { value, unit, .. } => Some(with_unit(&short(value), unit)),
-            Limit::Composition => None,
+            Limit::Composition { .. } => None,
         }
     }
 }
@@ -157,7 +163,7 @@ fn of_criterion(
 ) {
     let [low, high] = criterion.stated_range();
     let limit = if low > high || (low..=high).contains(&kelvin) {
-        Limit::Composition
+        Limit::Composition { stated_for: criterion.stated_for() }
     } else {
         Limit::Quantity { name, unit: "K", value: kelvin, range: [low, high] }
     };

@@ -39,15 +39,6 @@ const MODEL_TABLES: [&str; 11] = [
     "fitted",
 ];
 
-/// The built-in materials with those of the file.
-fn read_materials(top: &Section<'_>) -> Result<Library, InputError> {
-    let library = Library::built_in()?;
-    let Some(own) = top.section("materials")? else { return Ok(library) };
-    let library = library.with(&own)?;
-    own.finish()?;
-    Ok(library)
-}
-
 /// The particle, and its stickiness where the criterion knows it.
 fn read_particle(
     section: &Section<'_>,
@@ -76,7 +67,7 @@ impl Model {
             top.has(key);
         }
         top.finish()?;
-        let library = read_materials(top)?;
+        let library = Library::of_model(top)?;
         let capture = optional(top, "capture", Capture::read)?.unwrap_or_default();
         let (particle, stickiness) = finished(top.required_section("particle")?, |section| {
             read_particle(section, &library, &capture)

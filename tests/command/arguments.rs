@@ -59,6 +59,28 @@ fn a_built_in_material_is_printed_as_a_block_to_paste() {
     assert_eq!(predicted[0], predicted[1]);
 }
 
+/// An ash of a model file has its viscosity by every law: that of Kalmanovitch and Frank by hand is 15.12 Pa s at 1700 K.
+#[test]
+fn an_ash_of_a_model_file_shows_its_melt() {
+    let ash = "[materials.my-ash]\nlike = \"coal-slag\"\n\
+               composition = { SiO2 = 50, Al2O3 = 25, CaO = 15, FeO = 10 }\n";
+    let folder =
+        folder(&[("m.toml", &format!("{WAX}{ash}")), ("bad.toml", "[materials.my-ash]\ndensty = 1\n")]);
+    let shown = done(folder.path(), &["materials", "my-ash", "--model", "m.toml"]);
+    let head: Vec<&str> = line_of(&shown, "T [K]").split_whitespace().skip(2).collect();
+    let cells: Vec<&str> = line_of(&shown, " 1700 ").split_whitespace().skip(1).collect();
+    let place = head.iter().position(|law| *law == "kalmanovitch-frank").unwrap();
+    assert_eq!(cells[place], "15.1", "{shown}");
+    assert!(done(folder.path(), &["materials", "--model", "m.toml"]).contains("\nmy-ash "), "{shown}");
+    refused(folder.path(), &["materials", "--model", "bad.toml"], &["bad.toml:2", "densty", "density"]);
+    refused(folder.path(), &["materials", "my-ash"], &["unknown material `my-ash`"]);
+}
+
+/// The first line with a text.
+fn line_of<'a>(text: &'a str, with: &str) -> &'a str {
+    text.lines().find(|line| line.contains(with)).unwrap_or_default()
+}
+
 /// Elastic wax of 75 µm would touch for microseconds; soft and plastic it touches longer, by the model's own time.
 #[test]
 fn predict_adds_the_time_of_contact_when_asked() {
