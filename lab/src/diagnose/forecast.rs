@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::data_split::DataSplit;
 use super::missing_inputs::MissingInputs;
 use crate::dataset::Measurement;
+use nearwall::impact::Impact;
 use nearwall::model::{DrawLattice, Model, RotatedLattice};
 
 /// The prediction of one row under one draw.
@@ -35,6 +36,8 @@ pub(super) struct Forecast {
 const LARGEST_REACH: f64 = 0.1;
 /// Number of predictions from which threads pay off.
 const PARALLEL: usize = 20_000;
+/// Rows that a thread predicts at a time.
+const CHUNK: usize = 512;
 
 impl Forecast {
     /// Predicts the rows with these indices, `draws` times each if the model is stochastic.
@@ -61,23 +64,45 @@ impl Forecast {
     ) -> Self {
         let place = rows.iter().any(|&row| model.draws_place(all[row].wall, &all[row].impact));
         let lattice = DrawLattice::new(model, place, draws);
-        let predict = |&index: &usize| {
-            let rotated = lattice.rotated(index as u64);
-            let mut predictions = Vec::new();
-            for filling in 0..missing.fillings(&all[index]) {
-                let row = missing.filled(&all[index], filling);
-                let one = |draw| Prediction { filling, ..predict(model, &row, &rotated, draw) };
-                predictions.extend((0..lattice.count()).map(one));
+        let one = |rows: &[usize]| {
+            let mut new = Self::with_capacity(rows.len(), lattice.count());
+            rows.iter().for_each(|&index| new.push(model, index, &all[index], &lattice, missing));
+            new
+        };
+        if rows.len() * lattice.count() <= PARALLEL {
+            return one(rows);
+        }
+        let parts: Vec<Self> = rows.par_chunks(CHUNK).map(one).collect();
+        Self::joined(parts.iter().flat_map(|part| (0..part.ends.len()).map(|place| part.of(place))))
+    }
+
+    fn with_capacity(rows: usize, draws: usize) -> Self {
+        Self { ends: Vec::with_capacity(rows), predictions: Vec::with_capacity(rows * draws) }
+    }
+
+    /// Adds the predictions of the row of this index.
+    fn push(
+        &mut self,
+        model: &Model,
+        index: usize,
+        row: &Measurement,
+        lattice: &DrawLattice,
+        missing: &MissingInputs,
+    ) {
+        let start = self.predictions.len();
+        let draws = 0..lattice.count();
+        let rotated = lattice.rotated(index as u64);
+        if missing.lacks(row) {
+            for filling in 0..missing.fillings(row) {
+                let impact = missing.filled(row, filling);
+                let one = |draw| Prediction { filling, ..predict(model, row.wall, &impact, &rotated, draw) };
+                self.predictions.extend(draws.clone().map(one));
             }
-            set_reach(&mut predictions);
-            predictions
-        };
-        let of_rows: Vec<Vec<Prediction>> = if rows.len() * lattice.count() > PARALLEL {
-            rows.par_iter().map(predict).collect()
         } else {
-            rows.iter().map(predict).collect()
-        };
-        Self::joined(of_rows.iter().map(Vec::as_slice))
+            self.predictions.extend(draws.map(|draw| predict(model, row.wall, &row.impact, &rotated, draw)));
+        }
+        set_reach(&mut self.predictions[start..]);
+        self.ends.push(self.predictions.len());
     }
 
     fn joined<'a>(of_rows: impl Iterator<Item = &'a [Prediction]>) -> Self {
@@ -124,9 +149,15 @@ fn set_reach(predictions: &mut [Prediction]) {
 }
 
 #[inline]
-fn predict(model: &Model, row: &Measurement, lattice: &RotatedLattice<'_>, draw: usize) -> Prediction {
+fn predict(
+    model: &Model,
+    wall: usize,
+    impact: &Impact,
+    lattice: &RotatedLattice<'_>,
+    draw: usize,
+) -> Prediction {
     let uniform = |stream| lattice.uniform(draw, stream);
-    let (restitution, capture) = match model.resolve_place_with(row.wall, &row.impact, uniform) {
+    let (restitution, capture) = match model.resolve_place_with(wall, impact, uniform) {
         Ok(outcome) => {
             ([outcome.normal_restitution, outcome.tangential_restitution], outcome.sticking_probability)
         }

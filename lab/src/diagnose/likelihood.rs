@@ -444,17 +444,23 @@ pub(super) fn add_squares(
         averages = by_filling(predictions).map(|draws| average(draws, offset)).collect();
         &averages
     };
+    // Of a single prediction the weight cancels: no density is needed.
+    if let [one] = predictions {
+        for (which, seen) in seen(row) {
+            let terms = own_square(seen, &about(one, offset, which), row.rebounds, offset, which, scatter);
+            sums[which].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+        }
+        return;
+    }
     // The weight of a draw is the likelihood of the row under it, over that of all draws.
     let (mut own, mut total) = ([[0.0; 2]; 2], 0.0);
     for one in predictions {
         let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
         for (which, seen) in seen(row) {
-            let expected = one.restitution[which] + offset.restitution[which];
-            let variance = one.reach[which].powi(2);
-            let (density, term) = own_square(seen, expected, variance, row.rebounds, offset, which, scatter);
-            likelihood *= density;
-            terms[which] = term;
+            let about = about(one, offset, which);
+            likelihood *= seen_density(seen, &about, row.rebounds, offset, which, scatter);
+            terms[which] = own_square(seen, &about, row.rebounds, offset, which, scatter);
         }
         for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
             *sum += likelihood * term;
@@ -482,16 +488,42 @@ fn seen(row: &Measurement) -> impl Iterator<Item = (usize, (&Reading, Option<&Li
     readings.chain(limits(row).map(|(which, limit)| (which, (&limit.reading, Some(limit)))))
 }
 
-/// Density of what was seen, and the square of its residual that is due to the scatter with its weight.
-fn own_square(
-    (reading, limit): (&Reading, Option<&Limit>),
+/// An expected reading and the variance of its prediction [1].
+struct About {
     expected: f64,
     variance: f64,
+}
+
+fn about(one: &Prediction, offset: &Offset, which: usize) -> About {
+    let expected = one.restitution[which] + offset.restitution[which];
+    About { expected, variance: one.reach[which].powi(2) }
+}
+
+/// Density of what was seen; of a limit its probability.
+fn seen_density(
+    (reading, limit): (&Reading, Option<&Limit>),
+    &About { expected, variance }: &About,
     rebounds: f64,
     offset: &Offset,
     which: usize,
     scatter: Scatter,
-) -> (f64, [f64; 2]) {
+) -> f64 {
+    let width = deviation(scatter[which], offset, which, reading, rebounds, variance);
+    match limit {
+        Some(limit) => Censored::new(limit, expected, width, offset.gross).probability,
+        None => visible_density(reading.value - expected, expected, width, &limited(offset, which)),
+    }
+}
+
+/// The square of the residual of what was seen that is due to the scatter, with its weight.
+fn own_square(
+    (reading, limit): (&Reading, Option<&Limit>),
+    &About { expected, variance }: &About,
+    rebounds: f64,
+    offset: &Offset,
+    which: usize,
+    scatter: Scatter,
+) -> [f64; 2] {
     let residual = reading.value - expected;
     let width = deviation(scatter[which], offset, which, reading, rebounds, variance);
     let count = rebounds.max(1.0);
@@ -507,21 +539,18 @@ fn own_square(
     if let Some(limit) = limit {
         let censored = Censored::new(limit, expected, width, offset.gross);
         let weight = censored.regular * share;
-        let square = own_square(censored.square + offset.uncertainty[which], 1.0);
-        return (censored.probability, [weight * square, weight]);
+        return [weight * own_square(censored.square + offset.uncertainty[which], 1.0), weight];
     }
     let Weight { regular, precision } = Weight::of(residual, width, offset);
-    let limited = limited(offset, which);
     let seen = residual * residual + offset.uncertainty[which];
-    let (square, rows) = match Hidden::of(expected, width, limited.visible_from) {
+    let (square, rows) = match Hidden::of(expected, width, limited(offset, which).visible_from) {
         None => (seen, 1.0),
         Some(hidden) => {
             let unseen = hidden.share / (1.0 - hidden.share);
             (seen + unseen * hidden.square * width * width, 1.0 + unseen)
         }
     };
-    let density = visible_density(residual, expected, width, &limited);
-    (density, [share * own_square(precision * square, regular * rows), share * regular * rows])
+    [share * own_square(precision * square, regular * rows), share * regular * rows]
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 //! are ignored. A column with fewer than two stated values tells nothing: its blanks have the default.
 
 use crate::dataset::Measurement;
-use nearwall::impact::INPUTS;
+use nearwall::impact::{INPUTS, Impact};
 
 /// Number of values of a missing input: a power of two.
 const FILLINGS: usize = 8;
@@ -64,12 +64,12 @@ impl MissingInputs {
         self.lacking(row).map(|(_, values)| values.len()).max().unwrap_or(1)
     }
 
-    /// The row with one choice of the inputs that it lacks.
-    pub fn filled(&self, row: &Measurement, filling: usize) -> Measurement {
-        let mut filled = *row;
+    /// The impact of a row with one choice of the inputs that it lacks.
+    pub fn filled(&self, row: &Measurement, filling: usize) -> Impact {
+        let mut filled = row.impact;
         for (order, (place, values)) in self.lacking(row).enumerate() {
             let value = values[(2 * order + 1) * filling % values.len()];
-            (INPUTS[*place].set)(&mut filled.impact, value);
+            (INPUTS[*place].set)(&mut filled, value);
         }
         filled
     }
@@ -78,7 +78,6 @@ impl MissingInputs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nearwall::impact::Impact;
 
     fn row(temperature: Option<f64>, diameter: Option<f64>) -> Measurement {
         let mut row = Measurement { stated: [true; INPUTS.len()], ..Measurement::default() };
@@ -97,20 +96,19 @@ mod tests {
         rows.push(row(None, None));
         let missing = MissingInputs::of(&rows);
         assert_eq!((missing.fillings(&rows[0]), missing.fillings(&rows[80])), (1, FILLINGS));
-        let values: Vec<f64> = (0..FILLINGS)
-            .map(|filling| missing.filled(&rows[80], filling).impact.particle_temperature)
-            .collect();
+        let values: Vec<f64> =
+            (0..FILLINGS).map(|filling| missing.filled(&rows[80], filling).particle_temperature).collect();
         // The mean of 300 to 379 is 339.5.
         assert!((values.iter().sum::<f64>() / 8.0 - 339.5).abs() <= 1.0, "{values:?}");
         assert!(values[0] < 306.0 && values[7] > 373.0);
-        assert!(rows.iter().take(80).all(|row| missing.filled(row, 0) == *row));
+        assert!(rows.iter().take(80).all(|row| missing.filled(row, 0) == row.impact));
         // The other missing input of the last row is 1 wherever it is stated.
-        assert!((0..8).all(|filling| missing.filled(&rows[81], filling).impact.diameter == 1.0));
+        assert!((0..8).all(|filling| missing.filled(&rows[81], filling).diameter == 1.0));
     }
 
     #[test]
     fn one_stated_value_shows_nothing() {
         let rows = [row(Some(400.0), Some(1.0)), row(None, Some(1.0)), row(None, Some(1.0))];
-        assert_eq!(MissingInputs::of(&rows).filled(&rows[1], 0), rows[1]);
+        assert_eq!(MissingInputs::of(&rows).filled(&rows[1], 0), rows[1].impact);
     }
 }
