@@ -47,7 +47,7 @@ use set::{Plan, PlanOf, Recipe};
 type Situation = (&'static str, usize, fn(usize, &mut SetRng) -> Plan);
 
 /// Sets of a run that multiplies nothing.
-const SITUATIONS: [Situation; 71] = [
+const SITUATIONS: [Situation; 74] = [
     ("few-null", 3, few::null),
     ("few-level", 3, few::level),
     ("few-angle", 3, few::angle),
@@ -101,6 +101,9 @@ const SITUATIONS: [Situation; 71] = [
     ("instrument-unseen", 1, instrument::unseen),
     ("instrument-projection", 1, instrument::projected),
     ("instrument-bias-and-law", 2, instrument::bias),
+    ("instrument-tilt-and-law", 4, instrument::tilted_law),
+    ("instrument-drag-and-law", 2, instrument::dragged_law),
+    ("instrument-unseen-and-law", 2, instrument::unseen_law),
     ("slip-density", 1, slips::density),
     ("slip-modulus", 1, slips::modulus),
     ("slip-radius", 1, slips::radius),

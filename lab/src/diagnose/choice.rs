@@ -1,11 +1,12 @@
 //! A choice among explanations on some rows, and the model file that follows from it.
 
+use super::beside_laws::{LawsWithInstrument, instruments_beside_laws};
 use super::candidate::ScoredCandidate;
 use super::constant_capture::ConstantCapture;
 use super::constants::Effort;
 use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
-use super::explanation::explore;
+use super::explanation::Exploration;
 use super::explanations::{Explanations, Told, distinct};
 use super::ground::{Ground, grounds};
 use super::groups::GroupColumn;
@@ -83,7 +84,7 @@ impl FoundParts {
 
 /// Divides the gains of explanations by the dispersion of captures in classes about the best one, where
 /// impacts of a class are not independent (quasi-likelihood; McCullagh and Nelder 1989, ch. 9).
-fn temper(visited: &mut [ImpactExplanation<'_>], grounds: &[Ground]) {
+fn temper(visited: &mut [ImpactExplanation<'_>], grounds: &[&Ground]) {
     let Some(best) = visited.first() else { return };
     let hypothesis = &best.fitted.hypothesis;
     let data = &grounds[best.fitted.ground].data;
@@ -123,11 +124,25 @@ impl CauseChoice {
     /// Chooses among explanations on the fitted rows.
     pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
         let evidence = evidence(data);
-        let grounds = grounds(data, task.groups, task.text, evidence);
-        let search = ImpactSearch::new(&grounds, evidence, task.effort.refitted, task.progress);
-        let mut visited = explore(&search, search.starts(), task.effort.expanded);
+        let plain = grounds(data, task.groups, task.text, evidence);
+        let grounds: Vec<&Ground> = plain.iter().collect();
+        let search = |grounds| ImpactSearch::new(grounds, evidence, task.effort.refitted, task.progress);
+        let first = search(grounds.clone());
+        let mut exploration = Exploration::new(first.starts(), evidence);
+        exploration.expand(&first, 1);
+        let beside = instruments_beside_laws(exploration.visited(), &grounds, data, evidence);
+        let grounds = [grounds, beside.iter().map(|one| &one.ground).collect()].concat();
+        let search = search(grounds.clone());
+        let place = |index: usize| grounds.len() - beside.len() + index;
+        let with = |(index, one): (usize, &LawsWithInstrument)| {
+            search.with_instrument(&exploration.visited()[one.laws], &one.at, place(index))
+        };
+        let found: Vec<_> = beside.iter().enumerate().map(with).collect();
+        exploration.add(found);
+        exploration.expand(&search, task.effort.expanded);
+        let mut visited = exploration.finish(&search);
         temper(&mut visited, &grounds);
-        let ground = |one: &ImpactExplanation<'_>| &grounds[one.fitted.ground];
+        let ground = |one: &ImpactExplanation<'_>| grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
         let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();
         let told = |one: &ImpactExplanation<'_>| Told {
@@ -143,7 +158,7 @@ impl CauseChoice {
     /// The choice of the best explanation, with what is probable enough to be named.
     fn of(
         data: &DataSplit,
-        grounds: &[Ground],
+        grounds: &[&Ground],
         best: Option<&ImpactExplanation<'_>>,
         explanations: Explanations<ScoredCandidate>,
         law_or_curve: bool,
@@ -159,7 +174,7 @@ impl CauseChoice {
         let structure =
             [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
         let (data, shared) = (data.clone(), SharedErrors::default());
-        let Ground { gross_errors, heavy_tails, .. } = grounds[ground];
+        let Ground { gross_errors, heavy_tails, .. } = *grounds[ground];
         let mut choice =
             Self { data, explanations, discoveries, structure, shared, gross_errors, heavy_tails, state };
         // The scatter about what is named, without the rest of the explanation.

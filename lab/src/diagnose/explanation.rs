@@ -96,28 +96,61 @@ pub(super) fn explore<K: Explained>(
     starts: Vec<Explanation<K::Fitted>>,
     most: usize,
 ) -> Vec<Explanation<K::Fitted>> {
-    let evidence = kind.evidence();
-    let mut visited = Vec::new();
-    starts.into_iter().for_each(|start| add(&mut visited, start, evidence));
-    let mut expanded: Vec<Vec<String>> = Vec::new();
-    let mut spent = 0;
-    while spent < most
-        && let Some(next) = next(&visited, &expanded, evidence)
-    {
-        spent += kind.effort(&next);
-        expanded.push(next.keys.clone());
-        let known = |keys: &[String]| visited.iter().any(|one: &Explanation<_>| one.keys == keys);
-        let reduced = kind.reduced(&next, &known);
-        let extended = kind.extended(&next);
-        extended.into_iter().chain(reduced).for_each(|one| add(&mut visited, one, evidence));
+    let mut search = Exploration::new(starts, kind.evidence());
+    search.expand(kind, most);
+    search.finish(kind)
+}
+
+/// A search that can be stopped, told further explanations, and go on.
+pub(super) struct Exploration<F> {
+    visited: Vec<Explanation<F>>,
+    /// Keys of the explanations that were expanded.
+    expanded: Vec<Vec<String>>,
+    /// Effort so far.
+    spent: usize,
+    evidence: Evidence,
+}
+
+impl<F: Clone> Exploration<F> {
+    pub fn new(starts: Vec<Explanation<F>>, evidence: Evidence) -> Self {
+        let mut new = Self { visited: Vec::new(), expanded: Vec::new(), spent: 0, evidence };
+        new.add(starts);
+        new
     }
-    for part in parts_of_best(&visited, &expanded, evidence) {
-        if kind.effort(&part) == 1 {
-            kind.extended(&part).into_iter().for_each(|one| add(&mut visited, one, evidence));
+
+    pub fn visited(&self) -> &[Explanation<F>] {
+        &self.visited
+    }
+
+    /// Adds explanations; of two with the same additions the better fit stays.
+    pub fn add(&mut self, found: impl IntoIterator<Item = Explanation<F>>) {
+        found.into_iter().for_each(|one| add(&mut self.visited, one, self.evidence));
+    }
+
+    /// Expands until the effort reaches `most`.
+    pub fn expand(&mut self, kind: &impl Explained<Fitted = F>, most: usize) {
+        while self.spent < most
+            && let Some(next) = next(&self.visited, &self.expanded, self.evidence)
+        {
+            self.spent += kind.effort(&next);
+            self.expanded.push(next.keys.clone());
+            let known = |keys: &[String]| self.visited.iter().any(|one| one.keys == keys);
+            let reduced = kind.reduced(&next, &known);
+            self.add(kind.extended(&next).into_iter().chain(reduced));
         }
     }
-    visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
-    visited
+
+    /// All that was visited and what the parts of the best one lead to, the one with the largest evidence first.
+    pub fn finish(mut self, kind: &impl Explained<Fitted = F>) -> Vec<Explanation<F>> {
+        for part in parts_of_best(&self.visited, &self.expanded, self.evidence) {
+            if kind.effort(&part) == 1 {
+                self.add(kind.extended(&part));
+            }
+        }
+        let evidence = self.evidence;
+        self.visited.sort_by(|a, b| evidence.of(b).total_cmp(&evidence.of(a)));
+        self.visited
+    }
 }
 
 /// The best explanation without each of its additions, as far as known and not expanded: what gains little alone, since

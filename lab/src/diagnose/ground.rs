@@ -236,7 +236,7 @@ fn with_noise(data: &DataSplit, change: impl Fn(&Offset) -> Offset) -> Ground {
 }
 
 /// The rows read otherwise; `None` where a row has no such reading.
-fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
+pub(super) fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option<Ground> {
     let base = other.model.clone().unwrap_or_else(|| data.base.clone());
     let (mut rows, mut noise) = (data.rows.to_vec(), data.noise.to_vec());
     let mut slope = Vec::with_capacity(data.search.len());

@@ -7,6 +7,8 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
+
 use super::candidate::{Addition, Candidate, Class, FURTHER, SAME_CAUSE, ScoredCandidate};
 use super::candidate_list::candidates;
 use super::constant_capture::CaptureConstant;
@@ -38,7 +40,7 @@ pub(super) type ImpactExplanation<'a> = Explanation<FittedImpacts<'a>>;
 
 /// The search on some grounds.
 pub(super) struct ImpactSearch<'a> {
-    grounds: &'a [Ground],
+    grounds: Vec<&'a Ground>,
     evidence: Evidence,
     /// Explanations of each expansion that are fitted together.
     refitted: usize,
@@ -61,7 +63,7 @@ pub(super) fn evidence(data: &DataSplit) -> Evidence {
 
 impl<'a> ImpactSearch<'a> {
     pub fn new(
-        grounds: &'a [Ground],
+        grounds: Vec<&'a Ground>,
         evidence: Evidence,
         refitted: usize,
         progress: &'a (dyn Fn(&str) + Sync),
@@ -71,7 +73,7 @@ impl<'a> ImpactSearch<'a> {
 
     /// The base model on every ground that is no noise.
     pub fn starts(&self) -> Vec<ImpactExplanation<'a>> {
-        let start = |(place, ground): (usize, &'a Ground)| {
+        let start = |(place, ground): (usize, &&'a Ground)| {
             let hypothesis = Hypothesis::base(&ground.data);
             let keys = if ground.key.is_empty() { Vec::new() } else { vec![ground.key.clone()] };
             let scores = ground.scores(&hypothesis);
@@ -79,8 +81,27 @@ impl<'a> ImpactSearch<'a> {
             let fitted = FittedImpacts { ground: place, hypothesis, found: Vec::new() };
             Explanation { keys, fitted, scores, freedom, log_prior: ground.log_prior }
         };
-        let is_start = |(place, ground): &(usize, &Ground)| *place == 0 || ground.is_rival();
+        let is_start = |(place, ground): &(usize, &&Ground)| *place == 0 || ground.is_rival();
         self.grounds.iter().enumerate().filter(is_start).map(start).collect()
+    }
+
+    /// Laws with an instrument: the laws of an explanation at coordinates, fitted on the ground of this place.
+    pub fn with_instrument(
+        &self,
+        of: &ImpactExplanation<'a>,
+        at: &[f64],
+        place: usize,
+    ) -> ImpactExplanation<'a> {
+        let ground = self.grounds[place];
+        let mut new = of.clone();
+        new.log_prior += ground.log_prior - self.grounds[of.fitted.ground].log_prior;
+        new.keys.retain(|key| *key != ground.key);
+        new.keys.push(ground.key.clone());
+        new.fitted.ground = place;
+        new.fitted.hypothesis = new.fitted.hypothesis.with_coordinates(at);
+        new.fitted.hypothesis.data = &ground.data;
+        new.fitted.hypothesis.fit_with_discrepancy();
+        self.with_or_without_remainder(new)
     }
 
     /// Number of parameters of a scatter beyond stated errors.
@@ -106,7 +127,7 @@ impl<'a> ImpactSearch<'a> {
 
     /// The same with all parameters fitted together.
     fn refitted(&self, of: &ImpactExplanation<'a>, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
-        let ground = &self.grounds[of.fitted.ground];
+        let ground = self.grounds[of.fitted.ground];
         // With random draws a fit of all takes long, and the last addition is fitted.
         if new.fitted.hypothesis.is_stochastic() {
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
@@ -127,7 +148,7 @@ impl<'a> ImpactSearch<'a> {
 
     /// The scores of an explanation by its laws alone, or with the remainder if this pays for its parameters.
     fn with_or_without_remainder(&self, mut new: ImpactExplanation<'a>) -> ImpactExplanation<'a> {
-        let ground = &self.grounds[new.fitted.ground];
+        let ground = self.grounds[new.fitted.ground];
         let hypothesis = &new.fitted.hypothesis;
         let own = ground.freedom + hypothesis.freedom() + self.beyond_stated(hypothesis);
         let alone = ground.scores(&hypothesis.without_discrepancy());
@@ -145,7 +166,7 @@ impl<'a> ImpactSearch<'a> {
         &self,
         of: &ImpactExplanation<'a>,
         scored: &[ScoredCandidate],
-        prior: &dyn Fn(Class, usize) -> f64,
+        prior: &(dyn Fn(Class, usize) -> f64 + Sync),
     ) -> Vec<ImpactExplanation<'a>> {
         let mut laws: Vec<(f64, Candidate)> = scored.iter().filter_map(ScoredCandidate::plain_law).collect();
         laws.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -162,7 +183,7 @@ impl<'a> ImpactSearch<'a> {
         let ceiling = ScoredCandidate::unproven(addition, differences, prior(Class::Noise, 0));
         let below = self.beside(of, ceiling);
         let round = CandidateRound::new(&below.fitted.hypothesis);
-        let inside = round.score(&laws, &|_| ()).into_iter().filter(|one| !one.addition.at_bound());
+        let inside = round.score(&laws, &|_| ()).into_par_iter().filter(|one| !one.addition.at_bound());
         let with = inside.map(|one| {
             let log_prior = prior(one.addition.class(hypothesis.data), 1);
             self.refitted(&below, self.beside(&below, ScoredCandidate { log_prior, ..one }))
@@ -176,7 +197,7 @@ impl<'a> ImpactSearch<'a> {
         &self,
         of: &ImpactExplanation<'a>,
         list: &[Candidate],
-        prior: &dyn Fn(Class, usize) -> f64,
+        prior: &(dyn Fn(Class, usize) -> f64 + Sync),
     ) -> Vec<ImpactExplanation<'a>> {
         let hypothesis = &of.fitted.hypothesis;
         let (levels, is_base) = (levels(list), of.fitted.found.is_empty());
@@ -192,13 +213,13 @@ impl<'a> ImpactSearch<'a> {
         };
         if has_laws {
             let with = |level| self.refitted(of, self.beside(of, unproven(Addition::Curve(level), 0)));
-            return levels.into_iter().map(with).collect();
+            return levels.into_par_iter().map(with).collect();
         }
         let with = |HiddenLaw { law, level, .. }| {
             let law = self.beside(of, unproven(Addition::Part { part: law, others: Vec::new() }, 0));
             self.refitted(of, self.beside(&law, unproven(Addition::Curve(level), 1)))
         };
-        hidden_laws(hypothesis, list, &levels, self.refitted).into_iter().map(with).collect()
+        hidden_laws(hypothesis, list, &levels, self.refitted).into_par_iter().map(with).collect()
     }
 
     /// Whether errors that groups share explain more than independent ones beside a level: their mean looks like one.
@@ -212,7 +233,7 @@ impl<'a> ImpactSearch<'a> {
             let hypothesis = Hypothesis { data: &ground.data, ..centred.clone() };
             self.evidence.gain(ground.scores(&hypothesis).iter().sum(), ground.freedom)
         };
-        let plain = evidence(&self.grounds[0]);
+        let plain = evidence(self.grounds[0]);
         self.grounds.iter().any(|ground| ground.key.starts_with("groups:") && evidence(ground) > plain)
     }
 
@@ -224,7 +245,7 @@ impl<'a> ImpactSearch<'a> {
         let noise = self.grounds.iter().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
         let count = noise.clone().count();
         let before = self.grounds[0].scores(&of.fitted.hypothesis);
-        let on = |(place, ground): (usize, &'a Ground)| {
+        let on = |(place, ground): (usize, &&'a Ground)| {
             let mut new = of.clone();
             new.keys.push(ground.key.clone());
             new.fitted.ground = place;
@@ -281,8 +302,8 @@ impl<'a> Explained for ImpactSearch<'a> {
         let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
         all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
         let rest = all.split_off(all.len().min(self.refitted));
-        let refitted = all.into_iter().map(|new| self.refitted(of, new)).chain(below);
-        let mut found: Vec<_> = refitted.chain(rest).collect();
+        let mut found: Vec<_> = all.into_par_iter().map(|new| self.refitted(of, new)).collect();
+        found.extend(below.into_iter().chain(rest));
         found.extend(self.with_levels(of, &list, &prior));
         let at_bound =
             |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
@@ -296,25 +317,25 @@ impl<'a> Explained for ImpactSearch<'a> {
         of: &ImpactExplanation<'a>,
         known: &dyn Fn(&[String]) -> bool,
     ) -> Vec<ImpactExplanation<'a>> {
-        let data = of.fitted.hypothesis.data;
-        let without = |place: usize| {
-            let ScoredCandidate { addition: removed, log_prior, .. } = &of.fitted.found[place];
-            let key = removed.key(data);
-            let mut new = of.clone();
-            new.keys.retain(|own| *own != key);
-            if known(&new.keys) {
-                return None;
-            }
-            new.fitted.found.remove(place);
-            remove(&mut new.fitted.hypothesis, removed);
-            new.log_prior -= log_prior;
-            new.fitted.hypothesis.fit_with_discrepancy();
-            Some(self.with_or_without_remainder(new))
-        };
         if of.fitted.found.len() < 2 {
             return Vec::new();
         }
-        (0..of.fitted.found.len()).filter_map(without).collect()
+        let key = |place: usize| of.fitted.found[place].addition.key(of.fitted.hypothesis.data);
+        let keys_without = |place: usize| {
+            let removed = key(place);
+            of.keys.iter().filter(|own| **own != removed).cloned().collect::<Vec<String>>()
+        };
+        let places: Vec<usize> =
+            (0..of.fitted.found.len()).filter(|place| !known(&keys_without(*place))).collect();
+        let without = |place: usize| {
+            let mut new = Explanation { keys: keys_without(place), ..of.clone() };
+            let ScoredCandidate { addition: removed, log_prior, .. } = new.fitted.found.remove(place);
+            remove(&mut new.fitted.hypothesis, &removed);
+            new.log_prior -= log_prior;
+            new.fitted.hypothesis.fit_with_discrepancy();
+            self.with_or_without_remainder(new)
+        };
+        places.into_par_iter().map(without).collect()
     }
 }
 

@@ -9,6 +9,7 @@
 
 mod advice;
 pub mod benchmark;
+mod beside_laws;
 mod candidate;
 mod candidate_list;
 mod choice;

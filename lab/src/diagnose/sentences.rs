@@ -2,6 +2,7 @@
 
 use super::constants::{LISTED, NAMED, REFUTED};
 use super::curve::LEVEL_SHIFT;
+use super::explanations::distinct;
 use super::record::{
     Calibration, Diagnosis, ExplanationFound, Finding, Fit, FitTest, Gain, LargeMisfit, Rival, Unexplained,
 };
@@ -44,7 +45,9 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     let rows = diagnosis.rows.used;
     let mut text = fit_sentence(diagnosis, "");
     if let Some(rival) = diagnosis.rivals.first().filter(|rival| is_best(rival, diagnosis)) {
-        text += &format!("{} No physics is named before this is checked.", rival.explanation);
+        let Rival { explanation, .. } = rival;
+        text +=
+            &format!("{explanation} No physics is named before this is checked.{}", beside(rival, diagnosis));
         return text;
     }
     text += &found(diagnosis, &IMPACTS, || nothing_found(diagnosis, &IMPACTS, &format!("{rows} rows")));
@@ -95,6 +98,24 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
 /// Whether the most probable explanation is a rival of physics.
 fn is_best(rival: &Rival, diagnosis: &Diagnosis) -> bool {
     diagnosis.explanations.first().is_some_and(|best| best.causes.contains(&rival.id))
+}
+
+/// The causes that are probable beside a rival, if it is right.
+fn beside(rival: &Rival, diagnosis: &Diagnosis) -> String {
+    let with = || diagnosis.explanations.iter().filter(|one| one.causes.contains(&rival.id));
+    let share = |cause: &String| {
+        let both = with().filter(|one| one.causes.contains(cause)).map(|one| one.probability);
+        both.sum::<f64>() / with().map(|one| one.probability).sum::<f64>()
+    };
+    let others = with().flat_map(|one| &one.causes).filter(|cause| **cause != rival.id);
+    let probable =
+        distinct(others).into_iter().map(|cause| (share(&cause), cause)).filter(|one| one.0 >= NAMED);
+    let causes: Vec<String> =
+        probable.map(|(share, cause)| format!("{cause} ({})", probability_words(share))).collect();
+    if causes.is_empty() {
+        return String::new();
+    }
+    format!(" If it is so, the data also need {}: correct them and diagnose again.", causes.join(" and "))
 }
 
 /// The causes and the changed numbers, or what `nothing` says.

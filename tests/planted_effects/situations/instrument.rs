@@ -61,9 +61,14 @@ fn turn(row: &mut Row, angle: f64) -> bool {
 /// 12 % of the least speed, for the mean size. Rebounds that do not reach the window are missing.
 pub fn drag(_: usize, rng: &mut SetRng) -> Plan {
     let lab = lab(rng);
-    let (d, least) = (lab.campaign.d, lab.campaign.v_n.0);
-    let lost = rng.uniform((0.03, 0.12)) * least * d.0 * d.1;
+    let lost = window(&lab, rng);
     plan(lab, rng).changed(move |rows, _| rows.retain_mut(|row| slow_down(row, lost / row.x.d.powi(2))))
+}
+
+/// The speed that drag takes on the way to the wall, times the diameter squared [m³/s].
+fn window(lab: &Lab, rng: &mut SetRng) -> f64 {
+    let (d, least) = (lab.campaign.d, lab.campaign.v_n.0);
+    rng.uniform((0.03, 0.12)) * least * d.0 * d.1
 }
 
 /// Linear drag takes as much of the normal speed on each way and keeps the direction.
@@ -150,10 +155,42 @@ pub fn sorted(index: usize, rng: &mut SetRng) -> Plan {
         .changed(|rows, _| rows.sort_by(|one, other| one.seen.v_n.total_cmp(&other.seen.v_n)))
 }
 
+/// The laws that act beside an instrument.
+const BESIDE: [&str; 4] = ["powder-layer", "size-dependent-yield", "thermal-softening", "viscoelastic-loss"];
+
+/// A law of the library beside an instrument: the law, or a curve over its own input, may be said, and the instrument.
+fn beside(index: usize, rng: &mut SetRng) -> Plan {
+    let plan = exact::plan(BESIDE[index % BESIDE.len()], index, rng);
+    let expected = Expected { parameters: vec![], ..plan.expected.clone() }.allowing(&["artefact:*"]);
+    Plan { expected, ..plan }
+}
+
+/// A law of the library, measured with a wall or camera that is tilted by 5°.
+pub fn tilted_law(index: usize, rng: &mut SetRng) -> Plan {
+    let mut plan = beside(index, rng);
+    plan.lab.campaign.theta = (8.0, 65.0);
+    let angle = if rng.chance(0.5) { TILT } else { -TILT };
+    plan.changed(move |rows, _| rows.retain_mut(|row| turn(row, angle)))
+}
+
+/// A law of the library, measured behind a window where drag takes 3 to 12 % of the least speed.
+pub fn dragged_law(index: usize, rng: &mut SetRng) -> Plan {
+    let plan = beside(index, rng);
+    let lost = window(&plan.lab, rng);
+    plan.changed(move |rows, _| rows.retain_mut(|row| slow_down(row, lost / row.x.d.powi(2))))
+}
+
+/// A law of the library whose slow rebounds are missing.
+pub fn unseen_law(index: usize, rng: &mut SetRng) -> Plan {
+    let mut plan = beside(index, rng);
+    plan.lab.campaign.noise_e_n = rng.uniform((0.05, 0.1));
+    let limit = slow(&plan.lab, (0.15, 0.35), rng);
+    plan.changed(move |rows: &mut Vec<Row>, _| rows.retain(|row| !is_slower(row, limit)))
+}
+
 /// An effect, and every e_n is too large or too small by a constant.
 pub fn bias(index: usize, rng: &mut SetRng) -> Plan {
-    let cause = ["powder-layer", "size-dependent-yield", "thermal-softening", "viscoelastic-loss"][index % 4];
-    let plan = exact::plan(cause, index, rng);
+    let plan = exact::plan(BESIDE[index % BESIDE.len()], index, rng);
     let size = rng.uniform((0.03, 0.08)) * if rng.chance(0.5) { 1.0 } else { -1.0 };
     let allowed = ["level*", "artefact:*", "instrument:*", "slip:*"];
     Plan { expected: plan.expected.clone().allowing(&allowed), ..plan }

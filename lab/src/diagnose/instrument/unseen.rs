@@ -45,12 +45,14 @@ pub(super) fn noted_as_stuck(data: &DataSplit) -> Option<OtherReading> {
     Some(limited("artefact:noted-as-stuck", limit, Box::new(question), |row| row.impact.normal_speed, true))
 }
 
-/// Just below the least reading of `e_n` times `factor`; `None` where a limit is stated.
+/// Just below the least reading of `e_n` times `factor`; `None` where a limit is stated, or where smaller values are
+/// noted as such.
 fn least(data: &DataSplit, factor: fn(&Measurement) -> f64) -> Option<f64> {
-    if data.noise.iter().any(|offset| offset.visible_from > 0.0) {
+    let rows = data.search.iter().map(|&row| &data.rows[row]);
+    let noted = rows.clone().any(|row| row.limits[0].is_some_and(|limit| limit.below));
+    if noted || data.noise.iter().any(|offset| offset.visible_from > 0.0) {
         return None;
     }
-    let rows = data.search.iter().map(|&row| &data.rows[row]);
     let limits = rows.filter_map(|row| Some(row.e_n?.value * factor(row)));
     let least = limits.fold(f64::INFINITY, f64::min);
     (least > 0.0 && least.is_finite()).then_some(BELOW * least)
