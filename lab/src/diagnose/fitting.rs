@@ -6,6 +6,8 @@
 //! rest. A candidate's gain is that of its fit in log likelihood, less its number of parameters
 //! (Akaike 1974).
 
+use std::cell::Cell;
+
 use rayon::prelude::*;
 use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
 
@@ -23,6 +25,7 @@ use super::score_test::{self, Shapes, Tested, corrected};
 use super::search::{best_of, descend};
 use super::shapes::ShapeBuilder;
 use super::smooth::Basis;
+use nearwall::effect::EFFECTS;
 
 /// Least gain [nats] of each parameter with a default that is fitted.
 const REFINEMENT: f64 = 1.0;
@@ -188,13 +191,15 @@ impl<'a> CandidateRound<'a> {
         // The first descents use some rows only: they have to find the valley, not its floor.
         let some = self.search.select(&(0..self.search.rows.len().min(COARSE_ROWS)).collect::<Vec<_>>());
         let rounds = 20 * blank.at.len() as u64 + 5;
-        let coarse = |at: &[f64]| cost(&joint, &at_new(at), &some);
+        let coarse = cost(&joint, &some);
+        let coarse = |at: &[f64]| coarse(&at_new(at));
         // Those with a large t and those with a gain lie in other valleys; of a grid the best two are enough.
         let count = if refined { 2 } else { starts.len() };
         let descents =
             best_of(coarse, starts, count).into_iter().map(|start| descend(coarse, &start, 0.1, rounds));
         let (start, _) = descents.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        let (at, _) = descend(|at| cost(&joint, &at_new(at), &self.search), &start, 0.06, rounds);
+        let fine = cost(&joint, &self.search);
+        let (at, _) = descend(|at| fine(&at_new(at)), &start, 0.06, rounds);
         let joint = joint.with_coordinates(&at_new(&at));
         // With random draws the earlier parts are refitted only beside the one that joins.
         if parts.is_empty() || joint.is_stochastic() {
@@ -202,7 +207,7 @@ impl<'a> CandidateRound<'a> {
         }
         // The earlier parts are refitted beside the new one.
         let start = joint.coordinates();
-        let (at, _) = descend(|at| cost(&joint, at, &self.search), &start, 0.04, 20 * start.len() as u64);
+        let (at, _) = descend(cost(&joint, &self.search), &start, 0.04, 20 * start.len() as u64);
         split_last(joint.with_coordinates(&at))
     }
 
@@ -249,7 +254,7 @@ impl<'a> CandidateRound<'a> {
             && (free.form.sides.is_empty()
                 || !of.parts.is_empty()
                 || of.curves.iter().any(is_capture)
-                || !free.form.laws(self.data()).is_empty())
+                || self.has_law_of_capture(&free))
         {
             return free;
         }
@@ -260,6 +265,19 @@ impl<'a> CandidateRound<'a> {
             form > worth(gain, free.freedom)
         });
         better.unwrap_or(free)
+    }
+
+    /// Whether a law over the columns of a curve changes what is captured here: it is the form over them.
+    fn has_law_of_capture(&self, curve: &ColumnCurve) -> bool {
+        let laws = curve.form.laws(self.data());
+        let effects = EFFECTS.into_iter().filter(|effect| laws.iter().any(|id| id == effect.id));
+        let captures = |part: Part| {
+            let axes = part.axes(|input| self.data().range(input), false)?;
+            let with = self.joint(&FittedPart::middle(part, axes), &self.hypothesis.parts);
+            let changes = self.hypothesis.changes(&self.hypothesis.forecast(), &with.forecast());
+            Some(changes[Observable::Capture as usize] > 0.0)
+        };
+        effects.map(Part::Effect).any(|part| captures(part).unwrap_or(false))
     }
 
     /// A constant of captures; the parts are refitted beside a ceiling, without which they are too wide.
@@ -274,7 +292,7 @@ impl<'a> CandidateRound<'a> {
                 joint.captures = joint.captures.free();
                 let start = joint.coordinates();
                 if !start.is_empty() && !joint.is_stochastic() {
-                    let cost = |at: &[f64]| cost(&joint, at, &self.search);
+                    let cost = cost(&joint, &self.search);
                     let (at, _) = descend(cost, &start, 0.06, 20 * start.len() as u64);
                     joint = joint.with_coordinates(&at);
                 }
@@ -316,11 +334,16 @@ fn refined_starts(plain: &Addition, refinements: usize) -> Vec<Vec<f64>> {
     starts
 }
 
-/// Minus the log score of these rows as a function of all coordinates.
-fn cost(joint: &Hypothesis<'_>, at: &[f64], rows: &Evaluation<'_>) -> f64 {
-    let scatter = rows.scatter;
-    let evaluation = joint.with_coordinates(at).evaluate(&*rows.rows, &*rows.offsets);
-    -evaluation.with_scatter(scatter).with_fitted_scatter().score()
+/// Minus the log score of these rows as a function of all coordinates. The scatter is fitted from that of the last
+/// place, which is near.
+fn cost<'b>(joint: &'b Hypothesis<'_>, rows: &'b Evaluation<'_>) -> impl Fn(&[f64]) -> f64 + 'b {
+    let last = Cell::new(rows.scatter);
+    move |at| {
+        let evaluation = joint.with_coordinates(at).evaluate(&*rows.rows, &*rows.offsets);
+        let fitted = evaluation.with_scatter(last.get()).with_fitted_scatter();
+        last.set(fitted.scatter);
+        -fitted.score()
+    }
 }
 
 /// The last part of a hypothesis as an addition to the others.

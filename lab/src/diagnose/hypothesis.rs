@@ -1,6 +1,7 @@
 //! A hypothesis: the base model with everything that was added to it so far, and the scatter about it.
 
 use std::borrow::Cow;
+use std::cell::Cell;
 
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
@@ -223,9 +224,13 @@ impl<'a> Hypothesis<'a> {
             let offsets = self.offsets();
             let start = self.coordinates();
             if !start.is_empty() {
+                // The scatter is fitted from that of the last place, which is near.
+                let last = Cell::new(self.scatter);
                 let cost = |at: &[f64]| {
-                    let rows = self.with_coordinates(at).evaluate(rows, &offsets);
-                    -with_levels(rows, &levels).0.with_fitted_scatter().score()
+                    let rows = self.with_coordinates(at).evaluate(rows, &offsets).with_scatter(last.get());
+                    let fitted = with_levels(rows, &levels).0.with_fitted_scatter();
+                    last.set(fitted.scatter);
+                    -fitted.score()
                 };
                 let (at, _) = descend(cost, &start, 0.06, 60 * start.len() as u64);
                 *self = self.with_coordinates(&at);

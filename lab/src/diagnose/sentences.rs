@@ -11,6 +11,8 @@ use super::record::{
 const SMALLEST_CHANCE: f64 = 1e-12;
 /// Share of chi-square from which on a single reading is nearly all of it [1].
 const NEARLY_ALL: f64 = 0.8;
+/// From this share of the captures on, a ceiling is none for a reader [1].
+const NO_CEILING: f64 = 0.995;
 /// With fewer rows the verdict warns that effects may go undetected.
 const WARNED_ROWS: usize = 60;
 
@@ -65,7 +67,7 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             100.0 * expected
         );
     }
-    if let Some(ceiling) = diagnosis.capture_ceiling {
+    if let Some(ceiling) = diagnosis.capture_ceiling.filter(|ceiling| *ceiling < NO_CEILING) {
         text += &format!(
             " Of the captures that the model predicts {:.1} % happen, whatever the impact: the others are missed, or \
              bounce for another reason.",
