@@ -59,7 +59,7 @@ fn a_built_in_material_is_printed_as_a_block_to_paste() {
     assert_eq!(predicted[0], predicted[1]);
 }
 
-/// An ash of a model file has its viscosity by every law: that of Kalmanovitch and Frank by hand is 15.12 Pa s at 1700 K.
+/// An ash of a model file has its viscosity by every law: that of Kalmanovitch and Frank is 15.12 Pa s at 1700 K by hand.
 #[test]
 fn an_ash_of_a_model_file_shows_its_melt() {
     let ash = "[materials.my-ash]\nlike = \"coal-slag\"\n\
