@@ -137,7 +137,8 @@ impl CauseChoice {
         let with = |(index, one): (usize, &LawsWithInstrument)| {
             search.with_instrument(&exploration.visited()[one.laws], &one.at, place(index))
         };
-        let found: Vec<_> = beside.iter().enumerate().map(with).collect();
+        let mut found: Vec<ImpactExplanation<'_>> = beside.iter().enumerate().map(with).collect();
+        found.retain(|one| !one.fitted.hypothesis.at_bound());
         exploration.add(found);
         exploration.expand(&search, task.effort.expanded);
         let mut visited = exploration.finish(&search);

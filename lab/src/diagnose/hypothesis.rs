@@ -180,6 +180,11 @@ impl<'a> Hypothesis<'a> {
         parts + curves + self.scatter_trends.len() as f64 + self.captures.freedom()
     }
 
+    /// Whether a parameter is at an end of its search range, where it is no law.
+    pub fn at_bound(&self) -> bool {
+        self.captures.at_bound() || self.parts.iter().any(FittedPart::at_bound)
+    }
+
     /// The coordinates of all parts, one part after the other.
     pub fn coordinates(&self) -> Vec<f64> {
         self.parts.iter().flat_map(|part| part.at.iter().copied()).collect()

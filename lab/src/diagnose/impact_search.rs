@@ -305,9 +305,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         let mut found: Vec<_> = all.into_par_iter().map(|new| self.refitted(of, new)).collect();
         found.extend(below.into_iter().chain(rest));
         found.extend(self.with_levels(of, &list, &prior));
-        let at_bound =
-            |one: &Hypothesis<'_>| one.captures.at_bound() || one.parts.iter().any(|part| part.at_bound());
-        found.retain(|new| !at_bound(&new.fitted.hypothesis));
+        found.retain(|new| !new.fitted.hypothesis.at_bound());
         found.extend(self.grouped(of));
         found
     }
