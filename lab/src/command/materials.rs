@@ -21,7 +21,7 @@ pub struct Arguments {
     /// Temperature [K] at which to evaluate
     #[arg(long, value_name = "K", default_value_t = 293.15)]
     temperature: f64,
-    /// A model file, for the materials of its own
+    /// A model file: its own materials, too
     #[arg(long, value_name = "MODEL.toml")]
     model: Option<PathBuf>,
     /// Print a built-in material as a block for a model file
@@ -53,9 +53,12 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     super::print(&show(material, arguments.temperature))
 }
 
-/// Six digits; powers of ten where they are needed.
-fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
+/// Digits of a property.
+const DIGITS: usize = 6;
+
+/// A number with so many digits; powers of ten where they are needed.
+fn short(value: f64, digits: usize) -> String {
+    let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(value);
     if (1e-3..1e5).contains(&rounded.abs()) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
@@ -66,7 +69,7 @@ fn show(material: &Material, temperature: f64) -> String {
     ];
     for (key, unit, property) in material.properties() {
         let value = match property.at(temperature) {
-            Ok(value) => format!("{} {unit}", short(value)),
+            Ok(value) => format!("{} {unit}", short(value, DIGITS)),
             Err(range) => format!("not known at {temperature} K ({} to {} K)", range.low, range.high),
         };
         let uncertainty = property.uncertainty().map_or(String::new(), |u| format!(" ± {u:e} {unit}"));
@@ -80,7 +83,7 @@ fn show(material: &Material, temperature: f64) -> String {
     if material.property("surface_tension").is_none()
         && let Some(tension) = material.surface_tension_near(temperature)
     {
-        lines.push(format!("  {:<16} {} N/m", "surface_tension", short(tension)));
+        lines.push(format!("  {:<16} {} N/m", "surface_tension", short(tension, DIGITS)));
         lines.push(format!("  {:<16}   source: {}", "", surface_tension::ORIGIN));
     }
     if let Some(composition) = material.composition() {
@@ -96,11 +99,13 @@ fn show(material: &Material, temperature: f64) -> String {
     lines.join("\n")
 }
 
+/// Digits of a viscosity, which laws know within a factor.
+const MELT_DIGITS: usize = 3;
 /// Temperatures [K] of the table of viscosities.
 const MELT_TEMPERATURES: [f64; 7] = [1300.0, 1400.0, 1500.0, 1600.0, 1700.0, 1800.0, 1900.0];
 /// Viscosity of tapping [Pa s]: the temperature at which a slag has it is the "T250" (250 poise).
 const TAPPING: f64 = 25.0;
-/// The same temperature is looked for between these [K].
+/// That temperature is sought between these [K].
 const MELT_RANGE: [f64; 2] = [900.0, 2500.0];
 
 /// The viscosity of a composition by every law over temperature, and where it is stiff.
@@ -122,7 +127,9 @@ fn melt_table(composition: &Composition) -> Vec<String> {
         row("T [K]", &|law| format!("{} ", law.law().name)),
     ];
     lines.extend(MELT_TEMPERATURES.map(|temperature| {
-        row(&temperature.to_string(), &|law| marked(law, temperature, digits(law.at(temperature))))
+        row(&temperature.to_string(), &|law| {
+            marked(law, temperature, short(law.at(temperature), MELT_DIGITS))
+        })
     }));
     lines.push(row("T250 [K]", &|law| match temperature_of(law, TAPPING) {
         Some(temperature) => marked(law, temperature, format!("{temperature:.0}")),
@@ -133,12 +140,6 @@ fn melt_table(composition: &Composition) -> Vec<String> {
         format!("  {:<16} stiff below {stiff:.0} K (temperature of critical viscosity, Watt)", "")
     }));
     lines
-}
-
-/// Three digits.
-fn digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    if (1e-2..1e4).contains(&rounded) { format!("{rounded}") } else { format!("{rounded:e}") }
 }
 
 /// The temperature [K] at which a slag has a viscosity [Pa s]: viscosity falls with temperature.

@@ -6,10 +6,10 @@
 
 use rayon::prelude::*;
 
-use super::candidate::{Addition, Class};
+use super::candidate::Addition;
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
-use super::ground::{Ground, read};
+use super::ground::{Ground, instrument_prior, read};
 use super::hypothesis::Hypothesis;
 use super::impact_search::ImpactExplanation;
 use super::reading::{OtherReading, readings};
@@ -31,14 +31,14 @@ pub(super) struct LawsWithInstrument {
     pub ground: Ground,
 }
 
-/// Laws and an instrument whose size is not fitted yet.
+/// Laws as they are without an instrument, and the size of the instrument that fits best beside them.
 struct Pair<'a> {
     laws: usize,
     hypothesis: Hypothesis<'a>,
     other: &'a OtherReading,
-    /// Log likelihood with the best size of the instrument beside the laws as they are [nats].
-    score: f64,
-    freedom: f64,
+    size: f64,
+    /// Log evidence [nats].
+    worth: f64,
 }
 
 /// The pairs of laws and an instrument with the largest evidence; `plain` are the rows as they are.
@@ -63,71 +63,59 @@ pub(super) fn instruments_beside_laws(
         let before: f64 = ground.scores(&hypothesis).iter().sum();
         // On a rival's ground its size alone is fitted anew.
         let fits = |other: &&OtherReading| ground.key.is_empty() || ground.key == other.id;
-        let pair = |other| {
-            let (score, size) = best_size(&searched, other, &hypothesis, other.values.clone())?;
-            if hides_nothing(&read(&searched, other, size)?.data, hypothesis.scatter[0]) {
-                return None;
-            }
-            let freedom = hypothesis.freedom() + other.freedom;
+        let pairs = readings.iter().filter(fits).filter_map(|other| {
+            let (size, score) = other.best_value(|size| score(&searched, other, &hypothesis, size))?;
+            let hides_nothing = hides_nothing(&read(&searched, other, size)?.data, hypothesis.scatter[0]);
+            let worth = evidence.gain(score, hypothesis.freedom() + other.freedom);
+            let is_better = score > before || ground.is_rival();
             let hypothesis = hypothesis.clone();
-            (score > before || ground.is_rival()).then_some(Pair { laws, hypothesis, other, score, freedom })
-        };
-        readings.iter().filter(fits).filter_map(pair).collect::<Vec<_>>()
+            (is_better && !hides_nothing).then_some(Pair { laws, hypothesis, other, size, worth })
+        });
+        pairs.collect::<Vec<_>>()
     };
     laws.truncate(LAWS);
     let pairs: Vec<Vec<Pair<'_>>> = laws.into_par_iter().map(pairs_of).collect();
     let mut pairs: Vec<Pair<'_>> = pairs.into_iter().flatten().collect();
-    let worth = |pair: &Pair<'_>| evidence.gain(pair.score, pair.freedom);
-    pairs.sort_by(|a, b| worth(b).total_cmp(&worth(a)));
-    let log_prior = Class::Rival.log_prior(readings.len() + 1);
+    pairs.sort_by(|a, b| b.worth.total_cmp(&a.worth));
+    pairs.truncate(FITTED);
+    let log_prior = instrument_prior(readings.len());
     let fitted = |pair: Pair<'_>| {
         let (at, size) = in_turn(&pair, &searched)?;
         let ground = Ground { log_prior, ..read(plain, pair.other, size)? };
         Some(LawsWithInstrument { laws: pair.laws, at, ground })
     };
-    pairs.truncate(FITTED);
     pairs.into_par_iter().filter_map(fitted).collect()
 }
 
-/// Whether all that an instrument does not see lies within the scatter of `e_n`: a law explains more there if readings
-/// cannot be negative, whatever is seen.
+/// Whether an instrument leaves out only what lies within the scatter of `e_n`: such a limit says no more than that
+/// readings are not negative.
 fn hides_nothing(data: &DataSplit, scatter: f64) -> bool {
     let limit = data.search.iter().map(|&row| data.noise[row].visible_from).fold(f64::NEG_INFINITY, f64::max);
     limit > f64::NEG_INFINITY && limit < scatter
 }
 
-/// The size of an instrument among these at which the laws as they are have the largest log likelihood [nats].
-fn best_size(
-    searched: &DataSplit,
-    other: &OtherReading,
-    laws: &Hypothesis<'_>,
-    sizes: Vec<f64>,
-) -> Option<(f64, f64)> {
-    let scored = sizes.into_iter().filter_map(|size| {
-        let ground = read(searched, other, size)?;
-        let here = Hypothesis { data: &ground.data, ..laws.clone() };
-        Some((ground.scores(&here).iter().sum::<f64>(), size))
-    });
-    scored.filter(|(score, _)| score.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
+/// Log likelihood of laws beside an instrument of a size [nats].
+fn score(searched: &DataSplit, other: &OtherReading, laws: &Hypothesis<'_>, size: f64) -> Option<f64> {
+    let ground = read(searched, other, size)?;
+    let here = Hypothesis { data: &ground.data, ..laws.clone() };
+    Some(ground.scores(&here).iter().sum())
 }
 
 /// Coordinates of the laws' parameters and size of the instrument, fitted in turn.
 fn in_turn(pair: &Pair<'_>, searched: &DataSplit) -> Option<(Vec<f64>, f64)> {
-    let Pair { hypothesis, other, .. } = pair;
-    let best = |laws: &Hypothesis<'_>| best_size(searched, other, laws, other.values.clone());
-    let (mut laws, mut size) = (hypothesis.clone(), best(hypothesis)?.1);
+    let Pair { hypothesis, other, size, .. } = pair;
+    let (mut laws, mut best) = (hypothesis.clone(), (*size, f64::NAN));
     for _ in 0..TURNS {
-        let ground = read(searched, other, size)?;
+        let ground = read(searched, other, best.0)?;
         let mut here = Hypothesis { data: &ground.data, ..laws.clone() };
         here.fit(&ground.data.search);
         laws = laws.with_coordinates(&here.coordinates());
-        let next = best(&laws)?.1;
-        if next == size {
+        let before = best.0;
+        best = other.best_value(|size| score(searched, other, &laws, size))?;
+        if best.0 == before {
             break;
         }
-        size = next;
     }
-    let [coarse, fine] = [vec![size], other.near(size)].map(|sizes| best_size(searched, other, &laws, sizes));
-    let finer = fine.filter(|fine| coarse.is_none_or(|coarse| fine.0 > coarse.0));
-    Some((laws.coordinates(), finer.map_or(size, |finer| finer.1)))
+    let (size, _) = other.finer(best, |size| score(searched, other, &laws, size));
+    Some((laws.coordinates(), size))
 }

@@ -110,23 +110,22 @@ pub(super) fn grounds(
 fn rivals(data: &DataSplit, searched: &DataSplit, text: &str, evidence: Evidence) -> Vec<Ground> {
     let (slips, readings) = (slips(&data.base, text), readings(data));
     let best_of = |others: &[OtherReading]| -> Vec<Ground> {
-        let best = |other: &OtherReading| {
-            let near = |value: f64| other.near(value);
-            best(data, searched, other.values.clone(), near, evidence, &|data, value| {
-                read(data, other, value)
-            })
-        };
-        others.iter().filter_map(best).collect()
+        others.iter().filter_map(|other| best(data, searched, other, evidence)).collect()
     };
     let skewed = skewed(data);
     let mut instruments = best_of(&readings);
     instruments.extend((worth(&skewed, evidence) > 0.0).then_some(skewed));
-    let kinds = [(slips.len(), best_of(&slips)), (readings.len() + 1, instruments)];
-    let with_prior = |(count, found): (usize, Vec<Ground>)| {
-        let log_prior = Class::Rival.log_prior(count);
+    let slip_prior = Class::Rival.log_prior(slips.len());
+    let kinds = [(slip_prior, best_of(&slips)), (instrument_prior(readings.len()), instruments)];
+    let with_prior = |(log_prior, found): (f64, Vec<Ground>)| {
         found.into_iter().map(move |ground| Ground { log_prior, ..ground })
     };
     kinds.into_iter().flat_map(with_prior).collect()
+}
+
+/// Logarithm of the prior probability of one of so many instruments' readings, beside scatter to one side [nats].
+pub(super) fn instrument_prior(readings: usize) -> f64 {
+    Class::Rival.log_prior(readings + 1)
 }
 
 /// Log evidence of the base model on a ground over that on the rows as they are [nats].
@@ -135,24 +134,12 @@ fn worth(ground: &Ground, evidence: Evidence) -> f64 {
     evidence.gain(score, ground.freedom)
 }
 
-/// The ground that `read` makes of the rows for the best of some values, and of others `near` that one;
-/// tried on the rows that are `searched`. `None` if the rows as they are have more evidence.
-fn best(
-    data: &DataSplit,
-    searched: &DataSplit,
-    values: Vec<f64>,
-    near: impl Fn(f64) -> Vec<f64>,
-    evidence: Evidence,
-    read: &dyn Fn(&DataSplit, f64) -> Option<Ground>,
-) -> Option<Ground> {
-    let tried = |values: Vec<f64>| {
-        let scored = values.into_iter().filter_map(|at| Some((worth(&read(searched, at)?, evidence), at)));
-        scored.filter(|(worth, _)| worth.is_finite()).max_by(|a, b| a.0.total_cmp(&b.0))
-    };
-    let first = tried(values)?;
-    let finer = tried(near(first.1)).filter(|finer| finer.0 > first.0);
-    let (worth, value) = finer.unwrap_or(first);
-    if worth > 0.0 { read(data, value) } else { None }
+/// The rows read otherwise with the best value, tried on the rows that are `searched`. `None` if the rows as they are
+/// have more evidence.
+fn best(data: &DataSplit, searched: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Ground> {
+    let score = |value: f64| Some(worth(&read(searched, other, value)?, evidence));
+    let (value, worth) = other.finer(other.best_value(score)?, score);
+    if worth > 0.0 { read(data, other, value) } else { None }
 }
 
 /// Inputs and the sizes of their errors, as shares of the value [1].

@@ -446,9 +446,8 @@ pub(super) fn add_squares(
     };
     // Of a single prediction the weight cancels: no density is needed.
     if let [one] = predictions {
-        for (which, seen) in seen(row) {
-            let terms = own_square(seen, &about(one, offset, which), row.rebounds, offset, which, scatter);
-            sums[which].iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+        for seen in Seen::all(row, one, offset, scatter) {
+            sums[seen.which].iter_mut().zip(seen.own_square()).for_each(|(sum, term)| *sum += term);
         }
         return;
     }
@@ -457,10 +456,9 @@ pub(super) fn add_squares(
     for one in predictions {
         let mut likelihood = (1.0 - capture(one, offset)) * one.weight;
         let mut terms = [[0.0; 2]; 2];
-        for (which, seen) in seen(row) {
-            let about = about(one, offset, which);
-            likelihood *= seen_density(seen, &about, row.rebounds, offset, which, scatter);
-            terms[which] = own_square(seen, &about, row.rebounds, offset, which, scatter);
+        for seen in Seen::all(row, one, offset, scatter) {
+            likelihood *= seen.density();
+            terms[seen.which] = seen.own_square();
         }
         for (sum, term) in own.iter_mut().flatten().zip(terms.as_flattened()) {
             *sum += likelihood * term;
@@ -482,75 +480,83 @@ fn average(draws: &[Prediction], offset: &Offset) -> Prediction {
     Prediction { restitution, capture: mean.capture, weight: 1.0, reach, filling: 0 }
 }
 
-/// What was seen of `e_n` (0) and `e_t` (1): a reading, and the limit if it is one.
-fn seen(row: &Measurement) -> impl Iterator<Item = (usize, (&Reading, Option<&Limit>))> {
-    let readings = readings(row).map(|(which, reading)| (which, (reading, None)));
-    readings.chain(limits(row).map(|(which, limit)| (which, (&limit.reading, Some(limit)))))
-}
-
-/// An expected reading and the variance of its prediction [1].
-struct About {
+/// What was seen of `e_n` or `e_t`, beside one prediction.
+struct Seen<'a> {
+    /// 0 for `e_n`, 1 for `e_t`.
+    which: usize,
+    reading: &'a Reading,
+    /// The limit, if the value is one.
+    limit: Option<&'a Limit>,
+    /// Number of rebounds of the row.
+    rebounds: f64,
+    offset: &'a Offset,
+    /// Scatter of a single measurement [1].
+    scatter: f64,
+    /// The predicted value, the variance of this prediction, and the standard deviation of the reading [1].
     expected: f64,
     variance: f64,
+    width: f64,
 }
 
-fn about(one: &Prediction, offset: &Offset, which: usize) -> About {
-    let expected = one.restitution[which] + offset.restitution[which];
-    About { expected, variance: one.reach[which].powi(2) }
-}
-
-/// Density of what was seen; of a limit its probability.
-fn seen_density(
-    (reading, limit): (&Reading, Option<&Limit>),
-    &About { expected, variance }: &About,
-    rebounds: f64,
-    offset: &Offset,
-    which: usize,
-    scatter: Scatter,
-) -> f64 {
-    let width = deviation(scatter[which], offset, which, reading, rebounds, variance);
-    match limit {
-        Some(limit) => Censored::new(limit, expected, width, offset.gross).probability,
-        None => visible_density(reading.value - expected, expected, width, &limited(offset, which)),
+impl<'a> Seen<'a> {
+    /// All of a row.
+    fn all(
+        row: &'a Measurement,
+        one: &'a Prediction,
+        offset: &'a Offset,
+        scatter: Scatter,
+    ) -> impl Iterator<Item = Self> {
+        let readings = readings(row).map(|(which, reading)| (which, reading, None));
+        let limits = limits(row).map(|(which, limit)| (which, &limit.reading, Some(limit)));
+        readings.chain(limits).map(move |(which, reading, limit)| {
+            let (scatter, variance) = (scatter[which], one.reach[which].powi(2));
+            let width = deviation(scatter, offset, which, reading, row.rebounds, variance);
+            let expected = one.restitution[which] + offset.restitution[which];
+            Self { which, reading, limit, rebounds: row.rebounds, offset, scatter, expected, variance, width }
+        })
     }
-}
 
-/// The square of the residual of what was seen that is due to the scatter, with its weight.
-fn own_square(
-    (reading, limit): (&Reading, Option<&Limit>),
-    &About { expected, variance }: &About,
-    rebounds: f64,
-    offset: &Offset,
-    which: usize,
-    scatter: Scatter,
-) -> [f64; 2] {
-    let residual = reading.value - expected;
-    let width = deviation(scatter[which], offset, which, reading, rebounds, variance);
-    let count = rebounds.max(1.0);
-    let (foreign, count) = match reading.error {
-        Some(error) => (error * error + variance / count, 1.0),
-        None => (variance / count, count),
-    };
-    let foreign = foreign + offset.variance[which];
-    // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
-    let own = (scatter[which] * offset.spread).powi(2) / count;
-    let share = (own / (own + foreign)).powi(2);
-    let own_square = |square: f64, rows: f64| (square - rows * foreign) * count / offset.spread.powi(2);
-    if let Some(limit) = limit {
-        let censored = Censored::new(limit, expected, width, offset.gross);
-        let weight = censored.regular * share;
-        return [weight * own_square(censored.square + offset.uncertainty[which], 1.0), weight];
-    }
-    let Weight { regular, precision } = Weight::of(residual, width, offset);
-    let seen = residual * residual + offset.uncertainty[which];
-    let (square, rows) = match Hidden::of(expected, width, limited(offset, which).visible_from) {
-        None => (seen, 1.0),
-        Some(hidden) => {
-            let unseen = hidden.share / (1.0 - hidden.share);
-            (seen + unseen * hidden.square * width * width, 1.0 + unseen)
+    /// Its density; of a limit its probability.
+    fn density(&self) -> f64 {
+        let Self { offset, expected, width, .. } = *self;
+        match self.limit {
+            Some(limit) => Censored::new(limit, expected, width, offset.gross).probability,
+            None => {
+                visible_density(self.reading.value - expected, expected, width, &limited(offset, self.which))
+            }
         }
-    };
-    [share * own_square(precision * square, regular * rows), share * regular * rows]
+    }
+
+    /// The square of its residual that is due to the scatter, with its weight.
+    fn own_square(&self) -> [f64; 2] {
+        let Self { which, offset, expected, variance, width, .. } = *self;
+        let residual = self.reading.value - expected;
+        let count = self.rebounds.max(1.0);
+        let (foreign, count) = match self.reading.error {
+            Some(error) => (error * error + variance / count, 1.0),
+            None => (variance / count, count),
+        };
+        let foreign = foreign + offset.variance[which];
+        // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
+        let own = (self.scatter * offset.spread).powi(2) / count;
+        let share = (own / (own + foreign)).powi(2);
+        let own_square = |square: f64, rows: f64| (square - rows * foreign) * count / offset.spread.powi(2);
+        if let Some(limit) = self.limit {
+            let censored = Censored::new(limit, expected, width, offset.gross);
+            let weight = censored.regular * share;
+            return [weight * own_square(censored.square + offset.uncertainty[which], 1.0), weight];
+        }
+        let Weight { regular, precision } = Weight::of(residual, width, offset);
+        let seen = residual * residual + offset.uncertainty[which];
+        let (square, rows) = match Hidden::of(expected, width, limited(offset, which).visible_from) {
+            None => (seen, 1.0),
+            Some(hidden) => {
+                let unseen = hidden.share / (1.0 - hidden.share);
+                (seen + unseen * hidden.square * width * width, 1.0 + unseen)
+            }
+        };
+        [share * own_square(precision * square, regular * rows), share * regular * rows]
+    }
 }
 
 #[cfg(test)]
