@@ -8,7 +8,7 @@ use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
 use super::explanation::Exploration;
 use super::explanations::{Explanations, Told, distinct};
-use super::ground::{Ground, grounds};
+use super::ground::{Ground, MoreOutliers, grounds};
 use super::groups::GroupColumn;
 use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::impact_search::{ImpactExplanation, ImpactSearch, evidence};
@@ -44,10 +44,8 @@ pub(super) struct CauseChoice {
     pub structure: [f64; 2],
     /// Errors that groups share in the extended model.
     pub shared: SharedErrors,
-    /// Share of gross errors of the best explanation, where more than the expected one fits better [1].
-    pub gross_errors: Option<f64>,
-    /// Whether the best explanation has heavy tails.
-    pub heavy_tails: bool,
+    /// The outliers of the best explanation, where more than expected fit better.
+    pub outliers: Option<MoreOutliers>,
     /// The parts, curves and scatter of the search.
     state: FoundParts,
 }
@@ -175,9 +173,8 @@ impl CauseChoice {
         let structure =
             [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
         let (data, shared) = (data.clone(), SharedErrors::default());
-        let Ground { gross_errors, heavy_tails, .. } = *grounds[ground];
-        let mut choice =
-            Self { data, explanations, discoveries, structure, shared, gross_errors, heavy_tails, state };
+        let outliers = grounds[ground].outliers;
+        let mut choice = Self { data, explanations, discoveries, structure, shared, outliers, state };
         // The scatter about what is named, without the rest of the explanation.
         let mut named = choice.hypothesis(&choice.data);
         named.fit_scatter(&choice.data.search);

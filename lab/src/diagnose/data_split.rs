@@ -8,7 +8,7 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use super::group_column::group_columns;
 use super::groups::{GroupColumn, units};
 use super::input_error::corrected;
-use super::likelihood::{GROSS_SHARE, Offset};
+use super::likelihood::{Offset, Outliers};
 use super::missing_inputs::MissingInputs;
 use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements};
 use nearwall::impact::INPUTS;
@@ -183,10 +183,11 @@ impl DataSplit {
     pub fn new(base: &Model, data: &Measurements, groups: &[GroupColumn]) -> Self {
         let readings =
             data.rows.iter().map(|row| usize::from(row.e_n.is_some()) + usize::from(row.e_t.is_some()));
-        let gross = if readings.sum::<usize>() < MANY_READINGS { 0.0 } else { GROSS_SHARE };
+        let is_few = readings.sum::<usize>() < MANY_READINGS;
+        let outliers = if is_few { Outliers::NONE } else { Outliers::EXPECTED };
         let (rows, mut noise) = corrected(base, data);
         for (offset, row) in noise.iter_mut().zip(&rows) {
-            offset.gross = gross;
+            offset.outliers = [outliers; 2];
             let least = data.detection.least_e_n(&row.impact);
             offset.visible_from = if least > 0.0 { least } else { f64::NEG_INFINITY };
         }
@@ -238,9 +239,9 @@ impl DataSplit {
         Self { shared: Some(groups.clone()), units, unit_count, ..self.clone() }
     }
 
-    /// Share of readings in a heavy tail, the same for all rows [1].
-    pub fn tails(&self) -> f64 {
-        self.noise.first().map_or(0.0, |offset| offset.tails)
+    /// Shares of the readings of `e_n` and `e_t` in a heavy tail, the same for all rows [1].
+    pub fn tails(&self) -> [f64; 2] {
+        self.noise.first().map_or([0.0; 2], |offset| offset.outliers.map(|one| one.tails))
     }
 
     /// The split for the final fit: more draws a row, and fewer rows for a stochastic model.

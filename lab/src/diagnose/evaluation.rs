@@ -206,7 +206,7 @@ impl<'a> Evaluation<'a> {
             Some(Residual {
                 which,
                 value,
-                weight: Weight::of(value, width, offset).precision / (width * width),
+                weight: Weight::of(value, width, offset.outliers[which]).precision / (width * width),
             })
         };
         let limit = |(which, limit): (usize, Option<Limit>)| {

@@ -11,7 +11,7 @@ use super::constants::{BOOTSTRAP_RESAMPLES, LEAST_ROWS, ROW_DRAWS};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
-use super::likelihood::{Mean, Offset, Scatter};
+use super::likelihood::{Mean, Offset, Outliers, Scatter};
 use super::missing_inputs::MissingInputs;
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
@@ -61,8 +61,8 @@ pub(super) struct HeldOutRows {
 pub(super) struct ModelFile<'a> {
     pub model: &'a Model,
     pub scatter: Scatter,
-    /// Share of readings in a heavy tail, beside which the scatter was fitted [1].
-    pub tails: f64,
+    /// Shares of the readings of `e_n` and `e_t` in a heavy tail, beside which the scatter was fitted [1].
+    pub tails: [f64; 2],
 }
 
 impl HeldOutRows {
@@ -135,7 +135,8 @@ impl PredictedRows {
         let some = rows_for(file.model, data, rows);
         let mut split = DataSplit::bare(file.model, &some, ROW_DRAWS);
         split.missing = Arc::new(MissingInputs::of(&data.rows));
-        let offsets = vec![Offset { tails: file.tails, ..Offset::default() }; some.len()];
+        let outliers = file.tails.map(|tails| Outliers { tails, ..Outliers::EXPECTED });
+        let offsets = vec![Offset { outliers, ..Offset::default() }; some.len()];
         let evaluation = Evaluation::new(&split, file.model, split.all(), offsets, file.scatter);
         let squares = Observable::ALL.map(|observable| {
             let pairs = evaluation.pairs(observable).zip(&some);

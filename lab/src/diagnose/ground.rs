@@ -6,7 +6,7 @@ use super::explanation::Evidence;
 use super::groups::GroupColumn;
 use super::hypothesis::Hypothesis;
 use super::input_error::assume;
-use super::likelihood::Offset;
+use super::likelihood::Outliers;
 use super::missing_inputs::MissingInputs;
 use super::reading::{OtherReading, readings};
 use super::skew::skewed;
@@ -28,10 +28,23 @@ pub(super) struct Ground {
     pub log_prior: f64,
     /// Whether additions can be looked for beside it.
     pub open: bool,
-    /// The share of gross errors, where it is larger than expected [1].
-    pub gross_errors: Option<f64>,
-    /// Whether tails are heavy.
-    pub heavy_tails: bool,
+    /// More outliers than expected.
+    pub outliers: Option<MoreOutliers>,
+}
+
+/// More outliers than expected, of some quantities.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MoreOutliers {
+    pub shares: Outliers,
+    /// Whether `e_n` and `e_t` have them.
+    of: [bool; 2],
+}
+
+impl MoreOutliers {
+    /// The quantities that have them.
+    pub fn names(self) -> impl Iterator<Item = &'static str> {
+        ["e_n", "e_t"].into_iter().zip(self.of).filter_map(|(name, has)| has.then_some(name))
+    }
 }
 
 impl Ground {
@@ -46,8 +59,7 @@ impl Ground {
             freedom: 0.0,
             log_prior: 0.0,
             open: true,
-            gross_errors: None,
-            heavy_tails: false,
+            outliers: None,
         }
     }
 
@@ -89,15 +101,17 @@ pub(super) fn grounds(
 ) -> Vec<Ground> {
     let mut all = vec![Ground::plain(data)];
     all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
-    let expected = data.noise.iter().any(|offset| offset.gross > 0.0);
+    let expected = data.noise.iter().any(|offset| offset.outliers.contains(&Outliers::EXPECTED));
     let possible = !evidence.stated && evidence.readings >= LEAST_WITH_RUBBISH;
     let shares = match (expected, possible) {
         (true, _) => &RUBBISH[..],
         (false, true) => &RUBBISH[..1],
         (false, false) => &[],
     };
-    all.extend(shares.iter().map(|share| with_rubbish(data, *share)));
-    all.extend(possible.then(|| with_tails(data)));
+    let rubbish = shares.iter().map(|gross| Outliers { gross: *gross, tails: 0.0 });
+    let gross = if expected { Outliers::EXPECTED } else { Outliers::NONE };
+    let tails = possible.then_some(Outliers { tails: TAILS, ..gross });
+    all.extend(rubbish.chain(tails).flat_map(|shares| with_outliers(data, shares)));
     // Of a large file the rows that are not searched are changed only for the readings that stay.
     let searched = data.searched();
     all.extend(unstated_errors(data, &searched, evidence));
@@ -202,24 +216,29 @@ fn with_input_errors(data: &DataSplit, errors: &Errors) -> Option<Ground> {
     })
 }
 
-/// The rows with a larger share of gross errors.
-fn with_rubbish(data: &DataSplit, share: f64) -> Ground {
-    let gross = |offset: &Offset| Offset { gross: share, ..*offset };
-    let key = format!("gross-errors:{share}");
-    Ground { key, gross_errors: Some(share), ..with_noise(data, gross) }
-}
-
-/// The rows with readings in a heavy tail.
-fn with_tails(data: &DataSplit) -> Ground {
-    let tails = |offset: &Offset| Offset { tails: TAILS, ..*offset };
-    Ground { key: "heavy-tails".to_owned(), heavy_tails: true, ..with_noise(data, tails) }
-}
-
-/// The rows with another noise of one parameter.
-fn with_noise(data: &DataSplit, change: impl Fn(&Offset) -> Offset) -> Ground {
-    let noise: Vec<Offset> = data.noise.iter().map(change).collect();
-    let changed = DataSplit { noise: noise.into(), ..data.clone() };
-    Ground { data: changed, freedom: 1.0, ..Ground::plain(data) }
+/// The rows with these outliers: of all readings, and of those of each quantity alone, which share the prior probability.
+fn with_outliers(data: &DataSplit, shares: Outliers) -> Vec<Ground> {
+    let has = |which: usize| data.rows.iter().any(|row| [row.e_n, row.e_t][which].is_some());
+    let kinds: &[[bool; 2]] =
+        if has(0) && has(1) { &[[true, true], [true, false], [false, true]] } else { &[[true, true]] };
+    let with = |&of: &[bool; 2]| {
+        let mut noise = data.noise.to_vec();
+        for (outliers, _) in
+            noise.iter_mut().flat_map(|row| row.outliers.iter_mut().zip(of)).filter(|one| one.1)
+        {
+            *outliers = shares;
+        }
+        let outliers = Some(MoreOutliers { shares, of });
+        Ground {
+            key: format!("outliers:{}:{}:{of:?}", shares.gross, shares.tails),
+            data: DataSplit { noise: noise.into(), ..data.clone() },
+            freedom: 1.0,
+            log_prior: -(kinds.len() as f64).ln(),
+            outliers,
+            ..Ground::plain(data)
+        }
+    };
+    kinds.iter().map(with).collect()
 }
 
 /// The rows read otherwise; `None` where a row has no such reading.
@@ -241,7 +260,6 @@ pub(super) fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option
         freedom: other.freedom,
         log_prior: 0.0,
         open: true,
-        gross_errors: None,
-        heavy_tails: false,
+        outliers: None,
     })
 }

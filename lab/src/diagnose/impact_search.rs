@@ -243,7 +243,8 @@ impl<'a> ImpactSearch<'a> {
             return Vec::new();
         }
         let noise = self.grounds.iter().enumerate().filter(|(place, one)| *place > 0 && !one.is_rival());
-        let count = noise.clone().count();
+        // Variants of one noise share its prior probability.
+        let count = noise.clone().map(|(_, ground)| ground.log_prior.exp()).sum::<f64>().round() as usize;
         let before = self.grounds[0].scores(&of.fitted.hypothesis);
         let on = |(place, ground): (usize, &&'a Ground)| {
             let mut new = of.clone();
@@ -253,7 +254,7 @@ impl<'a> ImpactSearch<'a> {
             new.fitted.hypothesis.fit_scatter(&ground.data.search);
             new.scores = moved(&of.scores, &before, &ground.scores(&new.fitted.hypothesis));
             new.freedom += ground.freedom;
-            new.log_prior += Class::Noise.log_prior(count);
+            new.log_prior += ground.log_prior + Class::Noise.log_prior(count);
             new
         };
         noise.map(on).collect()

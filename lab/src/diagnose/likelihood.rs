@@ -34,6 +34,26 @@ pub(super) const SMALLEST_SCATTER: f64 = 1e-3;
 /// Scatter of single measurements of `e_n` and `e_t` about the prediction [1].
 pub(super) type Scatter = [f64; 2];
 
+/// Expected shares of the readings of one quantity that are not normal about the prediction with the scatter.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outliers {
+    /// Share of gross errors [1].
+    pub gross: f64,
+    /// Share of readings in a heavy tail [1].
+    pub tails: f64,
+}
+
+impl Outliers {
+    /// All readings are normal.
+    pub const NONE: Self = Self { gross: 0.0, tails: 0.0 };
+    /// What many readings of any laboratory have.
+    pub const EXPECTED: Self = Self { gross: GROSS_SHARE, tails: 0.0 };
+
+    fn is_none(self) -> bool {
+        self == Self::NONE
+    }
+}
+
 /// Correction of the prediction of one row, and what is known of its noise beside the scatter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Offset {
@@ -53,10 +73,8 @@ pub(super) struct Offset {
     pub visible_from: f64,
     /// Whether smaller ones are noted as captures rather than missing.
     pub noted: bool,
-    /// Expected share of gross errors [1].
-    pub gross: f64,
-    /// Expected share of readings in a heavy tail [1].
-    pub tails: f64,
+    /// Expected outliers of `e_n` and `e_t`.
+    pub outliers: [Outliers; 2],
 }
 
 impl Default for Offset {
@@ -70,8 +88,7 @@ impl Default for Offset {
             uncertainty: [0.0; 2],
             visible_from: f64::NEG_INFINITY,
             noted: false,
-            gross: GROSS_SHARE,
-            tails: 0.0,
+            outliers: [Outliers::EXPECTED; 2],
         }
     }
 }
@@ -209,22 +226,21 @@ fn normal_density(residual: f64, deviation: f64) -> f64 {
 
 /// Densities of a residual [1]: of the normal part, of the heavy tail, and of gross errors. Without gross errors a far
 /// residual keeps the density of a normal distribution.
-fn densities(residual: f64, deviation: f64, offset: &Offset) -> [f64; 3] {
-    let Offset { gross, tails, .. } = *offset;
+fn densities(residual: f64, deviation: f64, Outliers { gross, tails }: Outliers) -> [f64; 3] {
     let tail = if tails > 0.0 { tails * normal_density(residual, TAIL_WIDTH * deviation) } else { 0.0 };
     let normal = (1.0 - gross - tails) * normal_density(residual, deviation);
     [normal, tail, (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE)]
 }
 
 /// Density of a residual [1].
-fn density(residual: f64, deviation: f64, offset: &Offset) -> f64 {
-    densities(residual, deviation, offset).iter().sum()
+fn density(residual: f64, deviation: f64, outliers: Outliers) -> f64 {
+    densities(residual, deviation, outliers).iter().sum()
 }
 
 /// Log density of a residual.
-fn log_density(residual: f64, deviation: f64, offset: &Offset) -> f64 {
-    if offset.gross > 0.0 || offset.tails > 0.0 {
-        return density(residual, deviation, offset).ln();
+fn log_density(residual: f64, deviation: f64, outliers: Outliers) -> f64 {
+    if !outliers.is_none() {
+        return density(residual, deviation, outliers).ln();
     }
     let z = residual / deviation;
     -0.5 * z * z - deviation.ln() - 0.5 * std::f64::consts::TAU.ln()
@@ -239,11 +255,11 @@ pub(super) struct Weight {
 }
 
 impl Weight {
-    pub fn of(residual: f64, deviation: f64, offset: &Offset) -> Self {
-        if offset.gross <= 0.0 && offset.tails <= 0.0 {
+    pub fn of(residual: f64, deviation: f64, outliers: Outliers) -> Self {
+        if outliers.is_none() {
             return Self { regular: 1.0, precision: 1.0 };
         }
-        let [normal, tail, gross] = densities(residual, deviation, offset);
+        let [normal, tail, gross] = densities(residual, deviation, outliers);
         let all = normal + tail + gross;
         let precision = (normal + tail / TAIL_WIDTH.powi(2)) / all;
         Self { regular: (normal + tail) / all, precision }
@@ -275,24 +291,27 @@ impl Hidden {
     }
 }
 
-/// Density of a reading that the instrument sees.
-fn visible_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
-    let whole = density(residual, deviation, offset);
-    Hidden::of(expected, deviation, offset.visible_from)
-        .map_or(whole, |hidden| whole / (1.0 - (1.0 - offset.gross) * hidden.share))
+/// Density of a reading of `e_n` (0) or `e_t` (1) that the instrument sees.
+fn visible_density(which: usize, residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
+    density(residual, deviation, offset.outliers[which]) / visible_share(which, expected, deviation, offset)
 }
 
 /// Log density of a reading that the instrument sees.
-fn visible_log_density(residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
-    let whole = log_density(residual, deviation, offset);
-    Hidden::of(expected, deviation, offset.visible_from)
-        .map_or(whole, |hidden| whole - (1.0 - (1.0 - offset.gross) * hidden.share).ln())
+fn visible_log_density(which: usize, residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
+    let visible = visible_share(which, expected, deviation, offset);
+    log_density(residual, deviation, offset.outliers[which]) - visible.ln()
 }
 
-/// The offset with the limit of the instrument for `e_n` alone.
-fn limited(offset: &Offset, which: usize) -> Offset {
-    let visible_from = if which == 0 && !offset.noted { offset.visible_from } else { f64::NEG_INFINITY };
-    Offset { visible_from, ..*offset }
+/// Share of the readings about an expected one that the instrument sees [1].
+fn visible_share(which: usize, expected: f64, deviation: f64, offset: &Offset) -> f64 {
+    let regular = 1.0 - offset.outliers[which].gross;
+    Hidden::of(expected, deviation, visible_from(offset, which))
+        .map_or(1.0, |hidden| 1.0 - regular * hidden.share)
+}
+
+/// The least reading that the instrument sees: it has a limit for `e_n` alone.
+fn visible_from(offset: &Offset, which: usize) -> f64 {
+    if which == 0 && !offset.noted { offset.visible_from } else { f64::NEG_INFINITY }
 }
 
 /// The standard deviation of a reading, and the mean by which visible readings exceed the prediction [1].
@@ -306,7 +325,7 @@ pub(super) fn reading_noise(
     mean: &Mean,
 ) -> (f64, f64) {
     let width = deviation(scatter, offset, which, reading, row.rebounds, mean.variance[which]);
-    let hidden = Hidden::of(mean.restitution[which], width, limited(offset, which).visible_from);
+    let hidden = Hidden::of(mean.restitution[which], width, visible_from(offset, which));
     (width, hidden.map_or(0.0, |hidden| width * hidden.shift))
 }
 
@@ -320,7 +339,7 @@ pub(super) fn censored(
     mean: &Mean,
 ) -> Censored {
     let width = deviation(scatter, offset, which, &limit.reading, row.rebounds, mean.variance[which]);
-    Censored::new(limit, mean.restitution[which], width, offset.gross)
+    Censored::new(limit, mean.restitution[which], width, offset.outliers[which].gross)
 }
 
 /// Log score of one row [nats].
@@ -346,10 +365,12 @@ fn log_likelihood(
     let readings = readings(row).map(|(which, reading)| {
         let expected = expected[which];
         let residual = reading.value - expected;
-        visible_log_density(residual, expected, width(which, reading), &limited(offset, which))
+        visible_log_density(which, residual, expected, width(which, reading), offset)
     });
     let limits = limits(row).map(|(which, limit)| {
-        Censored::new(limit, expected[which], width(which, &limit.reading), offset.gross).probability.ln()
+        Censored::new(limit, expected[which], width(which, &limit.reading), offset.outliers[which].gross)
+            .probability
+            .ln()
     });
     readings.sum::<f64>() + limits.sum::<f64>()
 }
@@ -392,12 +413,13 @@ fn score_single(row: &Measurement, predictions: &[Prediction], offset: &Offset, 
         for (which, reading) in readings(row) {
             let width = deviation(scatter[which], offset, which, reading, 1.0, one.reach[which].powi(2));
             let expected = one.restitution[which] + offset.restitution[which];
-            density *= visible_density(reading.value - expected, expected, width, &limited(offset, which));
+            density *= visible_density(which, reading.value - expected, expected, width, offset);
         }
         for (which, limit) in limits(row) {
             let reach = one.reach[which].powi(2);
             let width = deviation(scatter[which], offset, which, &limit.reading, 1.0, reach);
-            density *= Censored::new(limit, shifted(one, offset)[which], width, offset.gross).probability;
+            density *= Censored::new(limit, shifted(one, offset)[which], width, offset.outliers[which].gross)
+                .probability;
         }
         sum += (1.0 - p) * one.weight * density;
         rebounds += (1.0 - p) * one.weight;
@@ -518,12 +540,10 @@ impl<'a> Seen<'a> {
 
     /// Its density; of a limit its probability.
     fn density(&self) -> f64 {
-        let Self { offset, expected, width, .. } = *self;
+        let Self { which, offset, expected, width, .. } = *self;
         match self.limit {
-            Some(limit) => Censored::new(limit, expected, width, offset.gross).probability,
-            None => {
-                visible_density(self.reading.value - expected, expected, width, &limited(offset, self.which))
-            }
+            Some(limit) => Censored::new(limit, expected, width, offset.outliers[which].gross).probability,
+            None => visible_density(which, self.reading.value - expected, expected, width, offset),
         }
     }
 
@@ -542,13 +562,13 @@ impl<'a> Seen<'a> {
         let share = (own / (own + foreign)).powi(2);
         let own_square = |square: f64, rows: f64| (square - rows * foreign) * count / offset.spread.powi(2);
         if let Some(limit) = self.limit {
-            let censored = Censored::new(limit, expected, width, offset.gross);
+            let censored = Censored::new(limit, expected, width, offset.outliers[which].gross);
             let weight = censored.regular * share;
             return [weight * own_square(censored.square + offset.uncertainty[which], 1.0), weight];
         }
-        let Weight { regular, precision } = Weight::of(residual, width, offset);
+        let Weight { regular, precision } = Weight::of(residual, width, offset.outliers[which]);
         let seen = residual * residual + offset.uncertainty[which];
-        let (square, rows) = match Hidden::of(expected, width, limited(offset, which).visible_from) {
+        let (square, rows) = match Hidden::of(expected, width, visible_from(offset, which)) {
             None => (seen, 1.0),
             Some(hidden) => {
                 let unseen = hidden.share / (1.0 - hidden.share);
@@ -566,7 +586,7 @@ mod tests {
 
     /// Without gross errors.
     fn exact() -> Offset {
-        Offset { gross: 0.0, ..Offset::default() }
+        Offset { outliers: [Outliers::NONE; 2], ..Offset::default() }
     }
 
     fn prediction(e_n: f64, capture: f64, filling: usize) -> Prediction {
@@ -623,14 +643,14 @@ mod tests {
     /// says of a residual is the slope of the log density in units of the normal one.
     #[test]
     fn a_heavy_tail_has_its_density_and_its_weight() {
-        let tails = Offset { tails: 0.25, ..exact() };
+        let tails = Outliers { tails: 0.25, ..Outliers::NONE };
         let laws = [0.1, 0.4].map(|width| Normal::new(0.5, width).unwrap());
         let expected = |value: f64| (0.75 * laws[0].pdf(value) + 0.25 * laws[1].pdf(value)).ln();
-        let score = |value: f64| log_density(value - 0.5, 0.1, &tails);
+        let score = |value: f64| log_density(value - 0.5, 0.1, tails);
         for value in [0.5, 0.58, 0.75, 1.1] {
             assert!((score(value) - expected(value)).abs() < 1e-9, "{value}");
             let slope = (expected(value + 1e-6) - expected(value - 1e-6)) / 2e-6;
-            let weight = Weight::of(value - 0.5, 0.1, &tails);
+            let weight = Weight::of(value - 0.5, 0.1, tails);
             assert!((slope + weight.precision * (value - 0.5) / 0.01).abs() < 1e-4, "{value}");
             assert!((weight.regular - 1.0).abs() < 1e-9);
         }

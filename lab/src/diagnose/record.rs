@@ -73,6 +73,9 @@ pub struct Diagnosis {
     pub gross_errors: Option<f64>,
     /// Whether the readings scatter with heavy tails: about a quarter of them four times as far as the others.
     pub heavy_tails: bool,
+    /// The quantities that have these gross errors or tails: `e_n`, `e_t` or both.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub outliers_of: Vec<&'static str>,
     /// Captures that neither the base model nor a cause nor a column explains.
     pub unexplained_capture: Option<Unexplained>,
     /// The gain on held-out rows in the observable of the first finding.

@@ -74,16 +74,22 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
             100.0 * ceiling
         );
     }
+    let of = match diagnosis.outliers_of[..] {
+        [one] => format!(" of {one}"),
+        _ => String::new(),
+    };
     if let Some(share) = diagnosis.gross_errors {
         text += &format!(
-            " Some {:.0} % of the readings lie far from any smooth model: gross errors, or a cause that acts on some \
+            " Some {:.0} % of the readings{of} lie far from any smooth model: gross errors, or a cause that acts on some \
              impacts and that no column tells. Look at the largest residuals.",
             100.0 * share
         );
     }
     if diagnosis.heavy_tails {
-        text += " The scatter has heavy tails: about a quarter of the readings lie some four times as far from \
-                 the model as the others. Look at the largest residuals.";
+        text += &format!(
+            " The scatter has heavy tails: about a quarter of the readings{of} lie some four times as far from the \
+             model as the others. Look at the largest residuals."
+        );
     }
     if let Some(groups) = &diagnosis.groups {
         text += &format!(

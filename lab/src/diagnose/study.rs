@@ -129,7 +129,7 @@ impl Study {
             let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
             Ok((Model::from_toml("extended.toml", &text)?, choice.scatter(), choice.data.tails()))
         };
-        let files: Vec<(Model, _, f64)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
+        let files: Vec<(Model, _, _)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
         for (part, (model, scatter, tails)) in parts.iter().zip(&files) {
             held_out.add(
                 rows,

@@ -8,6 +8,7 @@ use super::explanations::distinct;
 use super::finding::FindingBuilder;
 use super::gain::captured_shares;
 use super::hypothesis::Hypothesis;
+use super::likelihood::GROSS_SHARE;
 use super::observable::Observable;
 use super::part::Part;
 use super::record::{Diagnosis, Finding, Fit, Misfit, NotExamined, Options, ScatterFound, Unexplained};
@@ -78,8 +79,9 @@ pub(super) fn record(hypothesis: &Hypothesis<'_>, choice: &CauseChoice, options:
         },
         not_examined: not_examined(&data.base, |input| data.range(input), "in the data"),
         capture_ceiling: hypothesis.captures.ceiling,
-        gross_errors: choice.gross_errors,
-        heavy_tails: choice.heavy_tails,
+        gross_errors: choice.outliers.map(|more| more.shares.gross).filter(|share| *share > GROSS_SHARE),
+        heavy_tails: choice.outliers.is_some_and(|more| more.shares.tails > 0.0),
+        outliers_of: choice.outliers.map_or_else(Vec::new, |more| more.names().collect()),
         unexplained_capture: hypothesis.captures.has(CaptureConstant::Rate).then(|| {
             let [measured, expected] = captured_shares(hypothesis);
             Unexplained { measured, expected }
