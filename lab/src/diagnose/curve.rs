@@ -8,7 +8,7 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::smooth::{Basis, Entry, Smoothed, product, ridge, sum};
+use super::smooth::{Basis, Entry, Smoothed, evident, product, ridge, sum};
 use nearwall::effect::{EFFECTS, EffectInfo};
 
 /// The cause of readings that all lie as far from the model.
@@ -87,7 +87,11 @@ impl ColumnCurveForm {
         evaluation: &Evaluation<'_>,
         points: &[super::smooth::WeightedResidual],
     ) -> Option<Smoothed> {
-        ridge(&self.penalty(), points, |row| self.entry(evaluation.data, row))
+        let entry = |row: usize| self.entry(evaluation.data, row);
+        match self.sides.len() {
+            2 => evident(&self.penalty(), points, entry),
+            _ => ridge(&self.penalty(), points, entry),
+        }
     }
 
     /// The curve that fits the residuals best, `None` where there are too few.

@@ -171,6 +171,27 @@ pub(super) fn ridge(
     points: &[WeightedResidual],
     entry: impl Fn(usize) -> Entry,
 ) -> Option<Smoothed> {
+    let error = |left: f64, freedom: f64, rows: f64| left / (1.0 - freedom / rows).max(0.05).powi(2);
+    smoothed(penalty, points, entry, error)
+}
+
+/// The same with the penalty of most evidence (Schwarz 1978), which is larger.
+pub(super) fn evident(
+    penalty: &DMatrix<f64>,
+    points: &[WeightedResidual],
+    entry: impl Fn(usize) -> Entry,
+) -> Option<Smoothed> {
+    smoothed(penalty, points, entry, |left, freedom, rows| rows * left.ln() + freedom * rows.ln())
+}
+
+/// Heights by penalised least squares; of the penalties the one with the least `worst` of the squares that are left,
+/// the freedom and the number of rows.
+fn smoothed(
+    penalty: &DMatrix<f64>,
+    points: &[WeightedResidual],
+    entry: impl Fn(usize) -> Entry,
+    worst: impl Fn(f64, f64, f64) -> f64,
+) -> Option<Smoothed> {
     let count = penalty.nrows();
     let mut normal: DMatrix<f64> = DMatrix::zeros(count, count);
     let mut right: DVector<f64> = DVector::zeros(count);
@@ -197,8 +218,7 @@ pub(super) fn ridge(
         let heights = &inverse * &right;
         let freedom = (&inverse * &normal).trace();
         let left = square - 2.0 * heights.dot(&right) + (&normal * &heights).dot(&heights);
-        let error = left.max(0.0) / (1.0 - freedom / rows).max(0.05).powi(2);
-        Some((error, heights, freedom))
+        Some((worst(left.max(0.0), freedom, rows), heights, freedom))
     };
     let best = PENALTIES.into_iter().filter_map(attempt).min_by(|a, b| a.0.total_cmp(&b.0))?;
     Some(Smoothed { heights: best.1.iter().copied().collect(), freedom: best.2 })
