@@ -10,6 +10,7 @@ use super::groups::{GroupColumn, units};
 use super::input_error::corrected;
 use super::likelihood::{Offset, Outliers};
 use super::missing_inputs::MissingInputs;
+use super::rounding::Rounding;
 use crate::dataset::{ColumnValues, DataColumn, Measurement, Measurements};
 use nearwall::impact::INPUTS;
 use nearwall::model::Model;
@@ -186,6 +187,7 @@ impl DataSplit {
         let is_few = readings.sum::<usize>() < MANY_READINGS;
         let outliers = if is_few { Outliers::NONE } else { Outliers::EXPECTED };
         let (rows, mut noise) = corrected(base, data);
+        Rounding::of(&rows).note(&rows, &mut noise);
         for (offset, row) in noise.iter_mut().zip(&rows) {
             offset.outliers = [outliers; 2];
             let least = data.detection.least_e_n(&row.impact);

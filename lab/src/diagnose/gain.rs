@@ -15,6 +15,7 @@ use super::likelihood::{Mean, Offset, Outliers, Scatter};
 use super::missing_inputs::MissingInputs;
 use super::observable::Observable;
 use super::record::{Errors, Gain, Sample, SampleRow};
+use super::rounding::Rounding;
 use crate::dataset::{ColumnValues, Measurement, Measurements, Unselected};
 use nearwall::Model;
 use nearwall::impact::ExtraInput;
@@ -136,7 +137,8 @@ impl PredictedRows {
         let mut split = DataSplit::bare(file.model, &some, ROW_DRAWS);
         split.missing = Arc::new(MissingInputs::of(&data.rows));
         let outliers = file.tails.map(|tails| Outliers { tails, ..Outliers::EXPECTED });
-        let offsets = vec![Offset { outliers, ..Offset::default() }; some.len()];
+        let mut offsets = vec![Offset { outliers, ..Offset::default() }; some.len()];
+        Rounding::of(&data.rows).note(&some, &mut offsets);
         let evaluation = Evaluation::new(&split, file.model, split.all(), offsets, file.scatter);
         let squares = Observable::ALL.map(|observable| {
             let pairs = evaluation.pairs(observable).zip(&some);

@@ -65,8 +65,10 @@ pub(super) struct Offset {
     pub ceiling: f64,
     /// Factor on the scatter [1].
     pub spread: f64,
-    /// Variance of `e_n` and `e_t` due to the errors of the inputs and to rounding [1].
+    /// Variance of `e_n` and `e_t` due to the errors of the inputs [1].
     pub variance: [f64; 2],
+    /// Step to which `e_n` and `e_t` are rounded, 0 where it is small [1].
+    pub step: [f64; 2],
     /// Variance of the offsets of `e_n` and `e_t`, where they are estimates [1].
     pub uncertainty: [f64; 2],
     /// Least `e_n` that the instrument sees [1].
@@ -85,11 +87,19 @@ impl Default for Offset {
             ceiling: 1.0,
             spread: 1.0,
             variance: [0.0; 2],
+            step: [0.0; 2],
             uncertainty: [0.0; 2],
             visible_from: f64::NEG_INFINITY,
             noted: false,
             outliers: [Outliers::EXPECTED; 2],
         }
+    }
+}
+
+impl Offset {
+    /// Variance of `e_n` (0) or `e_t` (1) that is no scatter: by errors of the inputs and by rounding [1].
+    fn foreign_variance(&self, which: usize) -> f64 {
+        self.variance[which] + rounding_variance(self.step[which])
     }
 }
 
@@ -213,7 +223,7 @@ fn deviation(
         Some(error) => own + error * error + variance / count,
         None => (own + variance) / count,
     };
-    (own + offset.variance[which]).sqrt().max(SMALLEST_SCATTER)
+    (own + offset.foreign_variance(which)).sqrt().max(SMALLEST_SCATTER)
 }
 
 fn normal_density(residual: f64, deviation: f64) -> f64 {
@@ -232,18 +242,40 @@ fn densities(residual: f64, deviation: f64, Outliers { gross, tails }: Outliers)
     [normal, tail, (gross * GROSS_DENSITY).max(f64::MIN_POSITIVE)]
 }
 
-/// Density of a residual [1].
-fn density(residual: f64, deviation: f64, outliers: Outliers) -> f64 {
+/// Density of a residual [1], rounded to multiples of `step`.
+fn density(residual: f64, deviation: f64, outliers: Outliers, step: f64) -> f64 {
+    if step > deviation {
+        return rounded_density(residual, deviation, outliers, step);
+    }
     densities(residual, deviation, outliers).iter().sum()
 }
 
 /// Log density of a residual.
-fn log_density(residual: f64, deviation: f64, outliers: Outliers) -> f64 {
-    if !outliers.is_none() {
-        return density(residual, deviation, outliers).ln();
+fn log_density(residual: f64, deviation: f64, outliers: Outliers, step: f64) -> f64 {
+    if !outliers.is_none() || step > deviation {
+        return density(residual, deviation, outliers, step).ln();
     }
     let z = residual / deviation;
     -0.5 * z * z - deviation.ln() - 0.5 * std::f64::consts::TAU.ln()
+}
+
+/// Mean density over the step of a rounded residual [1]. About a step as wide as the scatter a normal distribution with
+/// the variance of rounding is as good; about a wider one it would have more than all of the probability.
+fn rounded_density(residual: f64, deviation: f64, Outliers { gross, tails }: Outliers, step: f64) -> f64 {
+    let own = (deviation * deviation - rounding_variance(step)).sqrt().max(SMALLEST_SCATTER);
+    let mean = |width: f64| {
+        let below = |limit: f64| 0.5 * statrs::function::erf::erfc(-limit / width / std::f64::consts::SQRT_2);
+        // From the nearer side, where the difference is exact.
+        let near = -residual.abs();
+        (below(near + 0.5 * step) - below(near - 0.5 * step)) / step
+    };
+    let tail = if tails > 0.0 { tails * mean(TAIL_WIDTH * own) } else { 0.0 };
+    ((1.0 - gross - tails) * mean(own) + tail + gross * GROSS_DENSITY).max(f64::MIN_POSITIVE)
+}
+
+/// Variance of the error of rounding to a step [1] (Sheppard 1898).
+fn rounding_variance(step: f64) -> f64 {
+    step * step / 12.0
 }
 
 /// What a residual tells of the prediction.
@@ -293,13 +325,14 @@ impl Hidden {
 
 /// Density of a reading of `e_n` (0) or `e_t` (1) that the instrument sees.
 fn visible_density(which: usize, residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
-    density(residual, deviation, offset.outliers[which]) / visible_share(which, expected, deviation, offset)
+    let whole = density(residual, deviation, offset.outliers[which], offset.step[which]);
+    whole / visible_share(which, expected, deviation, offset)
 }
 
 /// Log density of a reading that the instrument sees.
 fn visible_log_density(which: usize, residual: f64, expected: f64, deviation: f64, offset: &Offset) -> f64 {
     let visible = visible_share(which, expected, deviation, offset);
-    log_density(residual, deviation, offset.outliers[which]) - visible.ln()
+    log_density(residual, deviation, offset.outliers[which], offset.step[which]) - visible.ln()
 }
 
 /// Share of the readings about an expected one that the instrument sees [1].
@@ -556,7 +589,7 @@ impl<'a> Seen<'a> {
             Some(error) => (error * error + variance / count, 1.0),
             None => (variance / count, count),
         };
-        let foreign = foreign + offset.variance[which];
+        let foreign = foreign + offset.foreign_variance(which);
         // Fisher scoring for a variance that is partly known: rows in which the rest dominates say little.
         let own = (self.scatter * offset.spread).powi(2) / count;
         let share = (own / (own + foreign)).powi(2);
@@ -646,7 +679,7 @@ mod tests {
         let tails = Outliers { tails: 0.25, ..Outliers::NONE };
         let laws = [0.1, 0.4].map(|width| Normal::new(0.5, width).unwrap());
         let expected = |value: f64| (0.75 * laws[0].pdf(value) + 0.25 * laws[1].pdf(value)).ln();
-        let score = |value: f64| log_density(value - 0.5, 0.1, tails);
+        let score = |value: f64| log_density(value - 0.5, 0.1, tails, 0.0);
         for value in [0.5, 0.58, 0.75, 1.1] {
             assert!((score(value) - expected(value)).abs() < 1e-9, "{value}");
             let slope = (expected(value + 1e-6) - expected(value - 1e-6)) / 2e-6;
@@ -654,6 +687,21 @@ mod tests {
             assert!((slope + weight.precision * (value - 0.5) / 0.01).abs() < 1e-4, "{value}");
             assert!((weight.regular - 1.0).abs() < 1e-9);
         }
+    }
+
+    /// The probabilities of all steps add up to one, and each is that of a normal distribution within the step.
+    #[test]
+    fn a_rounded_reading_has_the_probability_of_its_step() {
+        let (step, scatter, law) = (0.05, 0.02, Normal::new(0.693, 0.02).unwrap());
+        let width = f64::hypot(scatter, step / 12_f64.sqrt());
+        let density = |value: f64, outliers: Outliers| density(value - 0.693, width, outliers, step);
+        for value in [0.55, 0.65, 0.7, 0.75, 0.9] {
+            let inside = law.cdf(value + 0.5 * step) - law.cdf(value - 0.5 * step);
+            assert!((density(value, Outliers::NONE) * step - inside).abs() < 1e-9, "{value}");
+        }
+        let tails = Outliers { tails: 0.25, ..Outliers::NONE };
+        let whole: f64 = (0..40).map(|place| density(f64::from(place) * step, tails) * step).sum();
+        assert!((whole - 1.0).abs() < 1e-9, "{whole}");
     }
 
     #[test]

@@ -56,6 +56,7 @@ mod reach;
 mod reading;
 mod record;
 pub mod rig;
+mod rounding;
 mod score_test;
 mod search;
 mod sentences;

@@ -25,9 +25,12 @@ pub(super) fn skewed(data: &DataSplit) -> Ground {
         let residual = |[measured, predicted]: [f64; 2]| measured - predicted;
         let residuals: Vec<Option<f64>> = rows.pairs(observable).map(|pair| pair.map(residual)).collect();
         let scatter = rows.scatter[observable as usize].max(SMALLEST_SCATTER);
-        let even = best(&residuals, scatter, (0..WIDTHS).map(|step| [step; 2]));
+        // Of rounded readings nothing is seen within a step.
+        let steps = data.noise.iter().map(|offset| offset.step[observable as usize]);
+        let narrowest = (NARROWEST * scatter).max(0.5 * steps.fold(0.0, f64::max));
+        let even = best(&residuals, narrowest, (0..WIDTHS).map(|step| [step; 2]));
         let below =
-            best(&residuals, scatter, (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two])));
+            best(&residuals, narrowest, (0..WIDTHS).flat_map(|one| (0..one).map(move |two| [one, two])));
         let gain = below.iter().zip(&even).map(|(below, even)| below - even);
         slope.iter_mut().zip(gain).for_each(|(sum, gain)| *sum += gain);
     }
@@ -43,9 +46,9 @@ pub(super) fn skewed(data: &DataSplit) -> Ground {
     }
 }
 
-/// Log likelihood of each residual with the widths, of these steps below and above, that fit best [nats].
-fn best(residuals: &[Option<f64>], scatter: f64, steps: impl Iterator<Item = [i32; 2]>) -> Vec<f64> {
-    let width = |step: i32| scatter * NARROWEST * WIDTH_STEP.powi(step);
+/// Log likelihood of each residual with the widths, of these steps from the narrowest below and above, that fit best [nats].
+fn best(residuals: &[Option<f64>], narrowest: f64, steps: impl Iterator<Item = [i32; 2]>) -> Vec<f64> {
+    let width = |step: i32| narrowest * WIDTH_STEP.powi(step);
     let of = |steps: [i32; 2]| -> Vec<f64> {
         residuals.iter().map(|one| one.map_or(0.0, |one| log_density(one, steps.map(width)))).collect()
     };
