@@ -197,22 +197,59 @@ impl RangeCounts {
             let key = |count: &ReasonCount| (count.trial.is_some(), -count.most);
             key(one).partial_cmp(&key(other)).unwrap_or(std::cmp::Ordering::Equal)
         });
-        let line = |(stated, count): &(&String, &ReasonCount)| {
-            let moved = count
-                .trial
-                .as_ref()
-                .map(|trial| format!("; {trial} moves the outcome by {}", change("up to ", count.most)));
-            format!("{} of {outside}: {stated}{}", count.impacts, moved.unwrap_or_default())
-        };
+        let line = |alike: &[(&String, &ReasonCount)]| reason_line(alike, *outside);
         let (idle, moving): (Vec<_>, Vec<_>) = sorted.into_iter().partition(|(_, count)| count.is_idle());
         let others: Vec<String> = moving.iter().map(|(stated, _)| named(stated)).collect();
         let idle: Vec<_> = idle.into_iter().filter(|(stated, _)| !others.contains(&named(stated))).collect();
         let idle = match idle.as_slice() {
-            [] | [_] => idle.iter().map(line).collect(),
+            [] | [_] => idle.chunks(1).map(line).collect(),
             several => vec![format!("held without moving the outcome: {}", properties(several))],
         };
-        std::iter::once(first).chain(moving.iter().map(line)).chain(idle).collect()
+        let moving = alike(moving);
+        std::iter::once(first).chain(moving.iter().map(|alike| line(alike))).chain(idle).collect()
     }
+}
+
+/// Reasons with those of other properties of the same material and range, the order of the first ones kept.
+fn alike<'a>(reasons: Vec<(&'a String, &'a ReasonCount)>) -> Vec<Vec<(&'a String, &'a ReasonCount)>> {
+    let mut groups: Vec<Vec<(&String, &ReasonCount)>> = Vec::new();
+    for (stated, count) in reasons {
+        let is_like = |group: &&mut Vec<(&String, &ReasonCount)>| {
+            let (first, known) = group[0];
+            let range = stated.split_once(" of ").map(|(_, range)| range);
+            range.is_some()
+                && range == first.split_once(" of ").map(|(_, range)| range)
+                && known.trial == count.trial
+        };
+        match groups.iter_mut().find(is_like) {
+            Some(group) => group.push((stated, count)),
+            None => groups.push(vec![(stated, count)]),
+        }
+    }
+    groups
+}
+
+/// The line of properties of one material and range, of which the first one moves the outcome most.
+fn reason_line(alike: &[(&String, &ReasonCount)], outside: u64) -> String {
+    let impacts = alike.iter().map(|(_, count)| count.impacts).max().unwrap_or(0);
+    let Some((stated, count)) = alike.first() else { return String::new() };
+    let several = |(name, range): (&str, &str)| {
+        let others = alike[1..].iter().filter_map(|(other, _)| Some(other.split_once(" of ")?.0));
+        let names: Vec<&str> = std::iter::once(name).chain(others).collect();
+        format!("{} of {}", names.join(", "), range.replacen(" is ", " are ", 1))
+    };
+    let stated = match alike {
+        [_] => (*stated).clone(),
+        _ => stated.split_once(" of ").map_or_else(|| (*stated).clone(), several),
+    };
+    let moved = count.trial.as_ref().map(|trial| {
+        let trial = match alike {
+            [_] => trial.clone(),
+            _ => trial.replacen("its uncertainty", "the uncertainty of each", 1),
+        };
+        format!("; {trial} moves the outcome by {}", change("up to ", count.most))
+    });
+    format!("{impacts} of {outside}: {stated}{}", moved.unwrap_or_default())
 }
 
 #[cfg(test)]
@@ -262,5 +299,28 @@ mod tests {
         let lines = counts.lines("rows");
         assert_eq!(lines[1], "1 of 1: a is stated for x; ten percent moves the outcome by up to 0.5000");
         assert_eq!(lines[2..], ["held without moving the outcome: b, c"]);
+    }
+
+    /// Properties of one material and range share a line, the one that moves most first.
+    #[test]
+    fn properties_of_one_range_share_a_line() {
+        let reason = |stated: &str, moved: f64| Reason {
+            stated: stated.to_owned(),
+            value: None,
+            trial: Some("held there; its uncertainty".to_owned()),
+            moved: Some(moved),
+        };
+        let mut counts = RangeCounts::default();
+        let [weak, strong] = [("hardness of a is stated for x", 0.2), ("density of a is stated for x", 0.4)];
+        let other = ("density of b is stated for x", 0.3);
+        counts.add(&[weak, strong, other].map(|(stated, moved)| reason(stated, moved)));
+        assert_eq!(
+            counts.lines("rows")[1..],
+            [
+                "1 of 1: density, hardness of a are stated for x; held there; the uncertainty of each moves the outcome by \
+             up to 0.4000",
+                "1 of 1: density of b is stated for x; held there; its uncertainty moves the outcome by up to 0.3000",
+            ]
+        );
     }
 }

@@ -8,7 +8,7 @@ use std::process::Command;
 use nalgebra::{Complex, Vector3};
 use nearwall::deposit::PROCESSES;
 use nearwall::deposit::resuspension::{AdhesionDistribution, Conditions, jkr_force};
-use nearwall_lab::results::standalone::{ImpactRecorder, Run, run};
+use nearwall_lab::results::standalone::{Doubts, ImpactRecorder, Run, run};
 use nearwall_lab::simulate::{
     BinHistory, Body, CarbonConversion, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly,
     position, state, velocity,
@@ -1120,6 +1120,28 @@ fn errors_name_the_place_the_key_and_the_remedy() {
     let misplaced = good.replace("at = [0, 0, 1]", "at = [0, 0, -1]");
     let (_, runs) = trajectories(&mut case(&misplaced));
     assert!(runs[0].totals.first_trouble.as_ref().unwrap().contains("starts in or behind `floor`"));
+}
+
+/// A gas that is only known where a sweep takes it: the temperature that the sweep replaces is never used.
+#[test]
+fn a_gas_need_not_be_known_at_a_temperature_that_is_swept() {
+    let table = "viscosity = { T = [400, 500], value = [2e-5, 3e-5] }";
+    let elastic = "model = \"constant\"\ne_n = 0.5";
+    let plastic = "model = \"thornton-ning\"\nyield_ratio = 0.7";
+    let text = rig(20, 300.0, 1).replace("viscosity = 1.8e-5", table).replace(elastic, plastic);
+    let text = text.replace("normal = [0, 0, 1]\ntemperature = 300", "normal = [0, 0, 1]\ntemperature = 900");
+    let swept = |values: &str| format!("{text}[sweep]\nkey = \"gas_temperature\"\nvalues = {values}\n");
+    let (_, runs) = trajectories(&mut case(&swept("[400, 450]")));
+    assert_eq!(runs.iter().map(|run| run.totals.ends.injected.count).collect::<Vec<_>>(), [20, 20]);
+    let read = |text: &str| Case::from_toml("case.toml", text, Path::new("."));
+    let message = read(&swept("[400, 600]")).unwrap_err().to_string();
+    assert!(message.contains("sweep: gas.viscosity is given for 400 to 500 K"), "{message}");
+    assert!(read(&text).unwrap_err().to_string().contains("gas.temperature: gas.viscosity is given for"));
+    // What the hits of all runs are outside of is said once.
+    let doubts = Doubts::of_all(runs.iter().map(|run| &run.totals.doubts)).lines();
+    let hits: u64 =
+        runs.iter().flat_map(|run| &run.totals.walls).filter_map(|(_, wall)| Some(wall.hits?.count)).sum();
+    assert!(doubts[0].contains(&format!("of {hits} hits")), "{doubts:?}");
 }
 
 fn nearwall(folder: &Path, arguments: &[&str]) -> std::process::Output {

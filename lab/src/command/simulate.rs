@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::atomic_file::{AtomicFile, WriteError, make_folder};
 use crate::report::{number, percent, standalone_page};
 use crate::results::share;
-use crate::results::standalone::{ImpactRecorder, Run, run as run_case, summary, write_deposits};
+use crate::results::standalone::{Doubts, ImpactRecorder, Run, run as run_case, summary, write_deposits};
 use crate::rig::{CaptureBand, DrawnModels, add_capture_bands};
 use crate::simulate::Case;
 
@@ -36,7 +36,9 @@ pub fn run(arguments: &Arguments) -> CommandResult {
         arguments.draws.as_deref().map(|draws| DrawnModels::from_folder(draws, &case.model)).transpose()?;
     let runs = write(&mut case, &folder, draws.as_ref())?;
     super::note(runs.iter().filter_map(|run| run.totals.trouble_note()));
-    let text: String = runs.iter().map(|run| summary_of_run(&case, run)).collect();
+    let mut text: String = runs.iter().map(|run| summary_of_run(&case, run)).collect();
+    let doubts = Doubts::of_all(runs.iter().map(|run| &run.totals.doubts));
+    doubts.lines().iter().for_each(|line| text += &format!("  {line}\n"));
     super::print_page(&text, &folder.join("report.html"))
 }
 
@@ -69,9 +71,6 @@ fn summary_of_run(case: &Case, run: &Run) -> String {
             captured_particles.low.round(),
             captured_particles.high.round(),
         );
-    }
-    for line in totals.warnings() {
-        text += &format!("  {line}\n");
     }
     text
 }

@@ -137,6 +137,8 @@ impl Case {
             top.section("conversion")?.map_or(Ok(CarbonConversion::NONE), |s| CarbonConversion::read(&s))?;
         let gas_section = top.required_section("gas")?;
         let gas = Gas::read(&gas_section)?;
+        let sweep = top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?;
+        check_temperatures(top, &gas_section, &gas, sweep.as_ref())?;
         gas_section.finish()?;
         let injections = read_injections(top, burning, &model, folder)?;
         let surfaces = Surface::read_all(top, &model)?;
@@ -161,12 +163,11 @@ impl Case {
             injections,
             surfaces,
             deposit,
-            sweep: top.section("sweep")?.map(|s| read_sweep(&s)).transpose()?,
+            sweep,
             model,
         };
         case.check_walls(top, &run)?;
         run.finish()?;
-        case.try_sweep(top)?;
         Ok(case)
     }
 
@@ -253,12 +254,21 @@ impl Case {
         }
         Ok(())
     }
+}
 
-    /// Checks before the first run that every value of the sweep can be set.
-    fn try_sweep(&self, top: &Section<'_>) -> Result<(), InputError> {
-        let of_gas = |sweep: &&Sweep| ["temperature", "gas_temperature"].contains(&sweep.key.as_str());
-        let mut values = self.sweep.iter().filter(of_gas).flat_map(|sweep| &sweep.values);
-        values.try_for_each(|value| self.gas.known_at(*value).map_err(|problem| top.fault("sweep", problem)))
+/// Checks before the first run that the gas is known at its temperatures, or at those that a sweep puts in their place.
+fn check_temperatures(
+    top: &Section<'_>,
+    section: &Section<'_>,
+    gas: &Gas,
+    sweep: Option<&Sweep>,
+) -> Result<(), InputError> {
+    match sweep.filter(|sweep| ["temperature", "gas_temperature"].contains(&sweep.key.as_str())) {
+        None => gas.check(section),
+        Some(sweep) => sweep
+            .values
+            .iter()
+            .try_for_each(|value| gas.known_at(*value).map_err(|problem| top.fault("sweep", problem))),
     }
 }
 

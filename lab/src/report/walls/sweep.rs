@@ -5,7 +5,7 @@ use super::{later_captures, number, percent};
 use crate::report::format::with_deviation;
 use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
-use crate::results::standalone::{Run, RunTotals};
+use crate::results::standalone::{Doubts, Run, RunTotals};
 use crate::results::{Moments, WallTotals, share, wilson};
 use crate::rig::Band;
 use crate::simulate::{Case, Sweep, sweep_unit};
@@ -64,12 +64,10 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
     if let Some(trouble) = runs.iter().find_map(|run| run.totals.first_trouble.as_ref()) {
         page.text(format!("Some particles could not be used. The first: {trouble}."));
     }
-    let worst = runs.iter().max_by_key(|run| run.totals.warnings().len());
-    if let Some((run, lines)) =
-        worst.map(|run| (run, run.totals.warnings())).filter(|(_, lines)| !lines.is_empty())
-    {
-        page.heading(format!("Outside of stated ranges at {}", axis.at(run)));
-        lines.into_iter().for_each(|line| page.note(format!("{line}.")));
+    let doubts = Doubts::of_all(runs.iter().map(|run| &run.totals.doubts)).lines();
+    if !doubts.is_empty() {
+        page.heading("Outside of stated ranges");
+        doubts.into_iter().for_each(|line| page.note(format!("{line}.")));
     }
     let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
     if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {

@@ -2,11 +2,13 @@
 //! `deposit.csv`.
 
 mod deposits;
+mod doubts;
 mod impacts;
 mod summary;
 mod totals;
 
 pub use deposits::write as write_deposits;
+pub use doubts::Doubts;
 pub use impacts::ImpactRecorder;
 pub use summary::{Summary, summary};
 pub use totals::{ParticleEnds, RESTITUTION_STEP, RunTotals};
@@ -63,9 +65,7 @@ fn run_once<E: From<SimulationError>>(
     let ranges = RangeReader::new(&case.model);
     let deposits = simulate::run_once(case, value, &mut |case, value, number, trajectory| {
         totals.add(trajectory);
-        totals.count_ranges(case, &ranges, trajectory);
-        totals.count_too_seldom(case, trajectory);
-        totals.count_without_gradient(case, trajectory);
+        totals.doubts.count(case, &ranges, trajectory);
         observer(case, value, number, trajectory)
     })?;
     Ok(Run { value, totals, deposits, bands: Vec::new() })

@@ -1,9 +1,7 @@
 //! Sums over the trajectories of a run: per wall, per exit, and the mass balance.
 
-use std::f64::consts::PI;
-
+use super::doubts::Doubts;
 use super::summary::over;
-use crate::range::{RangeCounts, RangeReader};
 use crate::results::{
     Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, NearWall, PipeZones, RunResults, WallMap,
     WallModel, WallTotals, bin,
@@ -149,20 +147,14 @@ pub struct RunTotals {
     pub captures: Vec<Capture>,
     /// Whether a captured particle had carbon left.
     pub has_carbon: bool,
-    /// The stated ranges that hits left.
-    pub ranges: RangeCounts,
-    /// Particles that turbulence brings to walls too seldom.
-    pub too_seldom: u64,
-    /// Number of particles that ended where the gas has no gradient of temperature, though thermophoresis is on.
-    pub without_gradient: u64,
-    /// Why the gas would hardly flow as the case says.
-    pub doubt: Option<String>,
+    /// What the results are not good for.
+    pub doubts: Doubts,
 }
 
 impl RunTotals {
     pub(super) fn new(case: &Case) -> Self {
         let injections = vec![ParticleEnds::default(); case.injections.len()];
-        let mut totals = Self { injections, doubt: case.gas.doubt(), ..Self::default() };
+        let mut totals = Self { injections, doubts: Doubts::new(case), ..Self::default() };
         for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
                 SurfaceKind::Wall { .. } => {
@@ -214,52 +206,6 @@ impl RunTotals {
         }
     }
 
-    /// Counts a particle whose deposition is known to be too low.
-    pub(super) fn count_too_seldom(&mut self, case: &Case, trajectory: &Trajectory) {
-        let Some(turbulence) = &case.gas.turbulence else { return };
-        let ([_, mass], diameter) = (trajectory.mass, trajectory.diameter);
-        let gas = case.gas.at(&trajectory.position);
-        let relaxation = mass / trajectory.weight / (3.0 * PI * gas.viscosity * diameter);
-        self.too_seldom += u64::from(turbulence.is_slow(relaxation, &gas));
-    }
-
-    /// Counts a particle that thermophoresis cannot push to a wall of another temperature.
-    pub(super) fn count_without_gradient(&mut self, case: &Case, trajectory: &Trajectory) {
-        let is_flat = case.gas.temperature_gradient(&trajectory.position).norm() == 0.0;
-        self.without_gradient += u64::from(case.gas.thermophoresis && is_flat);
-    }
-
-    /// What the results are not good for, a line for each reason.
-    pub fn warnings(&self) -> Vec<String> {
-        let mut lines = self.ranges.lines("hits");
-        lines.extend(self.doubt.clone());
-        if self.too_seldom > 0 {
-            lines.push(format!(
-                "{} of {} particles have relaxation times of 0.3 to 4 in wall units: turbulence brings fewer than \
-                 half as many to walls as measured, down to hardly any at 1",
-                self.too_seldom, self.ends.injected.count
-            ));
-        }
-        let injected = self.ends.injected.count;
-        if injected > 0 && self.without_gradient == injected {
-            lines.push(
-                "thermophoresis acts along the temperature gradient of the gas field, which has none here: colder \
-                 walls draw nothing; give `gas.temperature` as a profile across the gas"
-                    .to_owned(),
-            );
-        }
-        lines
-    }
-
-    /// Counts the stated ranges that the hits of a particle leave.
-    pub(super) fn count_ranges(&mut self, case: &Case, ranges: &RangeReader<'_>, trajectory: &Trajectory) {
-        for hit in &trajectory.hits {
-            if let SurfaceKind::Wall { model: wall, .. } = case.surfaces[hit.surface].kind {
-                self.ranges.count(ranges, wall, &hit.impact, hit.outcome.outside_range);
-            }
-        }
-    }
-
     /// How many particles could not be used, and why the first; `None` if all could.
     pub fn trouble_note(&self) -> Option<String> {
         let (first, count) = (self.first_trouble.as_ref()?, self.ends.unusable.count);
@@ -301,7 +247,7 @@ impl RunTotals {
             pipe: self.pipe(case),
             injections: self.by_injection(case),
             has_carbon: self.has_carbon,
-            outside_ranges: self.warnings(),
+            outside_ranges: self.doubts.lines(),
             trouble: self.first_trouble.clone().map(|reason| (self.ends.unusable.count, reason)),
             ..RunResults::default()
         }

@@ -134,7 +134,6 @@ impl Gas {
             brownian: section.boolean("brownian")?.unwrap_or(false),
         };
         gas.check_thin(section)?;
-        gas.check(section)?;
         Ok(gas)
     }
 
@@ -230,7 +229,8 @@ impl Gas {
         }
     }
 
-    fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
+    /// Checks that every property is known at the temperatures of the case file.
+    pub fn check(&self, section: &Section<'_>) -> Result<(), InputError> {
         let known = |temperature| self.known_at(temperature).map_err(|p| section.fault("temperature", p));
         self.temperature.extremes().into_iter().try_for_each(known)
     }
