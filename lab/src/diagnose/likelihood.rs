@@ -1,8 +1,8 @@
 //! The log score of a measured row under a prediction.
 //!
 //! `e_n` and `e_t` of a rebound are normal about the prediction with the scatter `s`, except for a
-//! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02 · 0.8`, where the second
-//! term is uniform over a width of 1.25. So a few outliers cannot decide for or against a cause. Where tails are
+//! share of 2 % gross errors: the density is `0.98 N(residual; s) + 0.02`, where the second
+//! term is uniform between 0 and 1. So a few outliers cannot decide for or against a cause. Where tails are
 //! heavy, a quarter of the readings is normal with four times the scatter instead (contaminated normal; Tukey 1960). A
 //! capture scores `ln p`, a rebound `ln (1-p)`, with `p` within 0.005 to 0.995; a single impact with
 //! `e_n` above 0 is a rebound whether or not an outcome is stated. Under a stochastic model, and
@@ -16,8 +16,8 @@ use crate::dataset::{Limit, Measurement, Reading};
 
 /// Expected share of gross errors among many readings [1].
 pub(super) const GROSS_SHARE: f64 = 0.02;
-/// Density of a gross error [1]: uniform over a width of 1.25.
-pub(super) const GROSS_DENSITY: f64 = 0.8;
+/// Density of a gross error [1]: uniform between 0 and 1.
+pub(super) const GROSS_DENSITY: f64 = 1.0;
 /// Scatter of a reading in a heavy tail, over that of the others [1].
 const TAIL_WIDTH: f64 = 4.0;
 /// Beyond this many standard deviations the normal density is negligible beside that of a gross error.

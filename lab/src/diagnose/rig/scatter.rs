@@ -272,7 +272,7 @@ mod tests {
     }
 
     /// With gross errors a density is still one: sums over 2 million values, of which a gross error can be those between 0
-    /// and 1.25. A reading 20 errors off is a gross error, one at 2 is not.
+    /// and 1. A reading 20 errors off is a gross error, one at 2 is not.
     #[test]
     fn a_gross_error_has_its_density() {
         let reading = GroupedReading { own: 0.02_f64.powi(2), with: 1.0, misfit: 0.01 };
@@ -282,7 +282,7 @@ mod tests {
         let values = (-1_000_000..1_000_000).map(|at| 0.6 + step * f64::from(at));
         let sum: f64 = values
             .map(|y| {
-                let outside = if (0.0..1.25).contains(&y) { 0.0 } else { GROSS * 0.8 };
+                let outside = if (0.0..1.0).contains(&y) { 0.0 } else { GROSS };
                 let density = density.at((y - 0.6).powi(2), 0.0)[place].exp() / std::f64::consts::TAU.sqrt();
                 (density - outside) * step
             })
