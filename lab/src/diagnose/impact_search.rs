@@ -19,8 +19,10 @@ use super::fitting::CandidateRound;
 use super::ground::Ground;
 use super::hidden_laws::{HiddenLaw, hidden_laws, levels};
 use super::hypothesis::Hypothesis;
+use super::inexact::{INEXACT, LEAST_LAWS, gains_of_inexact_laws};
 use super::likelihood::SMALLEST_SCATTER;
 use super::observable::Observable;
+use super::part::Part;
 
 /// Effort of an expansion beside an effect with random draws, in that of the base model.
 const RANDOM_DRAWS: usize = 5;
@@ -273,7 +275,7 @@ impl<'a> Explained for ImpactSearch<'a> {
     }
 
     fn extended(&self, of: &ImpactExplanation<'a>) -> Vec<ImpactExplanation<'a>> {
-        if !self.grounds[of.fitted.ground].open {
+        if !self.grounds[of.fitted.ground].open || is_twin(of) {
             return Vec::new();
         }
         let hypothesis = &of.fitted.hypothesis;
@@ -307,6 +309,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         found.extend(below.into_iter().chain(rest));
         found.extend(self.with_levels(of, &list, &prior));
         found.retain(|new| !new.fitted.hypothesis.at_bound());
+        found.extend(found.iter().filter_map(inexact).collect::<Vec<_>>());
         found.extend(self.grouped(of));
         found
     }
@@ -316,7 +319,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         of: &ImpactExplanation<'a>,
         known: &dyn Fn(&[String]) -> bool,
     ) -> Vec<ImpactExplanation<'a>> {
-        if of.fitted.found.len() < 2 {
+        if of.fitted.found.len() < 2 || is_twin(of) {
             return Vec::new();
         }
         let key = |place: usize| of.fitted.found[place].addition.key(of.fitted.hypothesis.data);
@@ -342,6 +345,32 @@ impl<'a> Explained for ImpactSearch<'a> {
 fn moved(scores: &[f64], before: &[f64], after: &[f64]) -> Vec<f64> {
     let changes = before.iter().zip(after);
     scores.iter().zip(changes).map(|(own, (before, after))| own + (after - before)).collect()
+}
+
+/// Whether it is a twin of [`inexact`], beside which nothing else is looked for.
+fn is_twin(of: &ImpactExplanation<'_>) -> bool {
+    of.keys.iter().any(|key| key == INEXACT)
+}
+
+/// The twin of an explanation with a level beside several laws, in which these are not exact; `None` for others.
+fn inexact<'a>(of: &ImpactExplanation<'a>) -> Option<ImpactExplanation<'a>> {
+    let is_level =
+        |one: &ScoredCandidate| matches!(&one.addition, Addition::Curve(curve) if curve.is_level());
+    let hypothesis = of.fitted.hypothesis.without_discrepancy();
+    let laws = hypothesis.parts.iter().filter(|part| matches!(part.part, Part::Effect(_))).count();
+    let place = of.fitted.found.iter().position(is_level)?;
+    if laws < LEAST_LAWS || hypothesis.is_stochastic() {
+        return None;
+    }
+    let mut twin = of.clone();
+    let level = twin.fitted.found.remove(place).addition;
+    let key = level.key(hypothesis.data);
+    twin.keys.retain(|own| *own != key);
+    twin.keys.push(INEXACT.to_owned());
+    remove(&mut twin.fitted.hypothesis, &level);
+    let gains = gains_of_inexact_laws(&hypothesis, &twin.fitted.hypothesis.without_discrepancy());
+    twin.scores.iter_mut().zip(gains).for_each(|(score, gain)| *score += gain);
+    Some(twin)
 }
 
 /// Removes an addition from a hypothesis.

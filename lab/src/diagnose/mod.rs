@@ -43,6 +43,7 @@ mod hidden_laws;
 mod hypothesis;
 mod impact_diagnosis;
 mod impact_search;
+mod inexact;
 mod input_error;
 mod instrument;
 mod interval;
