@@ -5,7 +5,7 @@
 //! in [`Class`], its finding in `finding`.
 
 use super::constant_capture::{CaptureConstant, ConstantCapture};
-use super::curve::ColumnCurve;
+use super::curve::{ColumnCurve, ColumnCurveForm};
 use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::hypothesis::{Hypothesis, ScatterTrend};
@@ -112,6 +112,16 @@ impl Candidate {
             Self::Part(Part::LawParameter(_)) => Class::Number,
             Self::Curve { sides, .. } => Class::of_columns(sides.iter().flatten().copied(), data),
             Self::ScatterTrend { .. } | Self::Captures(_) => Class::Noise,
+        }
+    }
+
+    /// Whether it is a surface of the same observable over the column of a curve and another one.
+    pub fn is_surface_over(&self, curve: &ColumnCurveForm) -> bool {
+        match (self, curve.sides.as_slice()) {
+            (Self::Curve { sides: [Some(one), Some(two)], observable }, [(column, _)]) => {
+                *observable == curve.observable && [one, two].contains(&column)
+            }
+            _ => false,
         }
     }
 }

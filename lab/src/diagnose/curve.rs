@@ -88,10 +88,13 @@ impl ColumnCurveForm {
         points: &[super::smooth::WeightedResidual],
     ) -> Option<Smoothed> {
         let entry = |row: usize| self.entry(evaluation.data, row);
-        match self.sides.len() {
-            2 => evident(&self.penalty(), points, entry),
-            _ => ridge(&self.penalty(), points, entry),
-        }
+        let [(_, Basis::Hats(first)), (_, Basis::Hats(second))] = self.sides.as_slice() else {
+            return ridge(&self.penalty(), points, entry);
+        };
+        let free = evident(&self.penalty(), points, entry)?;
+        let products: Vec<f64> = first.iter().flat_map(|x| second.iter().map(move |y| x * y)).collect();
+        let plain = as_product(&products, points, entry).filter(|plain| plain.criterion < free.criterion);
+        Some(plain.unwrap_or(free))
     }
 
     /// The curve that fits the residuals best, `None` where there are too few.
@@ -100,7 +103,7 @@ impl ColumnCurveForm {
     pub fn fit(self, evaluation: &Evaluation<'_>) -> Option<ColumnCurve> {
         if self.observable != Observable::Capture {
             let points = evaluation.residuals(self.observable, self.multiplicative);
-            let Smoothed { heights, freedom } = self.smooth(evaluation, &points)?;
+            let Smoothed { heights, freedom, .. } = self.smooth(evaluation, &points)?;
             return Some(ColumnCurve { form: self, heights, freedom, closed: None });
         }
         let constant = constant_odds(evaluation)?;
@@ -132,9 +135,27 @@ impl ColumnCurveForm {
             points.iter_mut().for_each(|point| point.residual += height(&fitted, point.row));
             fitted = Some(self.smooth(evaluation, &points)?);
         }
-        let Smoothed { heights, freedom } = best.1?;
+        let Smoothed { heights, freedom, .. } = best.1?;
         Some(ColumnCurve { form: self, heights, freedom, closed: None })
     }
+}
+
+/// The surface `a + b x y`, the simplest one of two columns, from the products at its knots.
+fn as_product(
+    products: &[f64],
+    points: &[super::smooth::WeightedResidual],
+    entry: impl Fn(usize) -> Entry,
+) -> Option<Smoothed> {
+    let largest = products.iter().fold(f64::MIN_POSITIVE, |most, product| most.max(product.abs()));
+    let scaled: Vec<f64> = products.iter().map(|product| product / largest).collect();
+    let pair = |row: usize| {
+        let entry = entry(row);
+        let constant = entry.iter().map(|(_, share)| share).sum();
+        vec![(0, constant), (1, sum(&entry, &scaled))]
+    };
+    let fit = evident(&DMatrix::zeros(2, 2), points, pair)?;
+    let heights = scaled.iter().map(|product| fit.heights[0] + fit.heights[1] * product).collect();
+    Some(Smoothed { heights, ..fit })
 }
 
 /// The basis functions of a column at a row; where the row lacks an input, their mean over what the file shows of it.

@@ -105,7 +105,8 @@ impl<'a> CandidateRound<'a> {
     }
 
     fn score_candidate(&self, candidate: Candidate, tested: &Tested) -> Option<ScoredCandidate> {
-        let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. } | Candidate::Captures(_));
+        let cheap = matches!(candidate, Candidate::Curve { sides: [_, None], .. } | Candidate::Captures(_))
+            || self.is_whole_surface(candidate);
         let hopeless =
             !cheap && self.few.is_none() && tested.p_value > WORTH_A_FIT && tested.gain < PROMISING_GAIN;
         if tested.starts.is_empty() || hopeless {
@@ -139,6 +140,13 @@ impl<'a> CandidateRound<'a> {
         let least = if self.few.is_some_and(|few| few.alone) { FEW_TESTS } else { 1.0 };
         let q_value = corrected(p_value, tested.tests.max(least));
         Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value, log_prior: 0.0 })
+    }
+
+    /// Whether it is a surface over columns on which nothing depends yet: its test, of the interplay alone, says little.
+    fn is_whole_surface(&self, candidate: Candidate) -> bool {
+        let Candidate::Curve { sides: [Some(one), Some(two)], observable } = candidate else { return false };
+        let known = self.hypothesis.columns_of(observable);
+        !known.contains(&one) && !known.contains(&two)
     }
 
     /// Gain of each row, less its share of the number of parameters [nats].

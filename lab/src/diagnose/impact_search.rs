@@ -26,6 +26,8 @@ use super::part::Part;
 
 /// Effort of an expansion beside an effect with random draws, in that of the base model.
 const RANDOM_DRAWS: usize = 5;
+/// By so much a surface has more evidence than the curve in its place [nats]: a factor of 20.
+const SEEN: f64 = 3.0;
 
 /// An explanation of impacts, fitted.
 #[derive(Debug, Clone)]
@@ -193,6 +195,50 @@ impl<'a> ImpactSearch<'a> {
         with.collect()
     }
 
+    /// The explanation without what was added in this place, fitted anew.
+    fn without(&self, of: &ImpactExplanation<'a>, place: usize) -> ImpactExplanation<'a> {
+        let mut new = Explanation { keys: keys_without(of, place), ..of.clone() };
+        let ScoredCandidate { addition: removed, log_prior, .. } = new.fitted.found.remove(place);
+        remove(&mut new.fitted.hypothesis, &removed);
+        new.log_prior -= log_prior;
+        new.fitted.hypothesis.fit_with_discrepancy();
+        self.with_or_without_remainder(new)
+    }
+
+    /// Surfaces in the place of a curve over one of their columns: beside the curve they gain little.
+    fn with_surfaces(
+        &self,
+        of: &ImpactExplanation<'a>,
+        list: &[Candidate],
+        prior: &(dyn Fn(Class, usize) -> f64 + Sync),
+    ) -> Vec<ImpactExplanation<'a>> {
+        let in_place = |place: usize| {
+            let surfaces: Vec<Candidate> = match &of.fitted.found[place].addition {
+                Addition::Curve(curve) => {
+                    list.iter().copied().filter(|one| one.is_surface_over(&curve.form)).collect()
+                }
+                _ => Vec::new(),
+            };
+            if surfaces.is_empty() {
+                return Vec::new();
+            }
+            let before = self.without(of, place);
+            let scored = CandidateRound::new(&before.fitted.hypothesis).score(&surfaces, &|_| ());
+            let beside = |one: ScoredCandidate| {
+                let log_prior = prior(one.addition.class(before.fitted.hypothesis.data), 0);
+                self.beside(&before, ScoredCandidate { log_prior, ..one })
+            };
+            let mut all: Vec<ImpactExplanation<'a>> = scored.into_iter().map(beside).collect();
+            all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+            all.truncate(self.refitted);
+            // A product with a column that hardly varies is the curve once more: the interplay has to be seen.
+            let is_seen = |new: &ImpactExplanation<'a>| self.evidence.of(new) > self.evidence.of(of) + SEEN;
+            let all = all.into_par_iter().map(|new| self.refitted(&before, new));
+            all.filter(is_seen).collect::<Vec<_>>()
+        };
+        (0..of.fitted.found.len()).flat_map(in_place).collect()
+    }
+
     /// Laws with a level of `e_n` or `e_t` that adds or multiplies, fitted together: a law takes on a level as far as
     /// it can, so that the level gains nothing beside the law as it is; and a level may hide a law.
     fn with_levels(
@@ -308,6 +354,7 @@ impl<'a> Explained for ImpactSearch<'a> {
         let mut found: Vec<_> = all.into_par_iter().map(|new| self.refitted(of, new)).collect();
         found.extend(below.into_iter().chain(rest));
         found.extend(self.with_levels(of, &list, &prior));
+        found.extend(self.with_surfaces(of, &list, &prior));
         found.retain(|new| !new.fitted.hypothesis.at_bound());
         found.extend(found.iter().filter_map(inexact).collect::<Vec<_>>());
         found.extend(self.grouped(of));
@@ -322,23 +369,16 @@ impl<'a> Explained for ImpactSearch<'a> {
         if of.fitted.found.len() < 2 || is_twin(of) {
             return Vec::new();
         }
-        let key = |place: usize| of.fitted.found[place].addition.key(of.fitted.hypothesis.data);
-        let keys_without = |place: usize| {
-            let removed = key(place);
-            of.keys.iter().filter(|own| **own != removed).cloned().collect::<Vec<String>>()
-        };
         let places: Vec<usize> =
-            (0..of.fitted.found.len()).filter(|place| !known(&keys_without(*place))).collect();
-        let without = |place: usize| {
-            let mut new = Explanation { keys: keys_without(place), ..of.clone() };
-            let ScoredCandidate { addition: removed, log_prior, .. } = new.fitted.found.remove(place);
-            remove(&mut new.fitted.hypothesis, &removed);
-            new.log_prior -= log_prior;
-            new.fitted.hypothesis.fit_with_discrepancy();
-            self.with_or_without_remainder(new)
-        };
-        places.into_par_iter().map(without).collect()
+            (0..of.fitted.found.len()).filter(|place| !known(&keys_without(of, *place))).collect();
+        places.into_par_iter().map(|place| self.without(of, place)).collect()
     }
+}
+
+/// The keys of an explanation without that of what was added in this place.
+fn keys_without(of: &ImpactExplanation<'_>, place: usize) -> Vec<String> {
+    let removed = of.fitted.found[place].addition.key(of.fitted.hypothesis.data);
+    of.keys.iter().filter(|own| **own != removed).cloned().collect()
 }
 
 /// Scores with what others gain from before to after [nats].

@@ -162,6 +162,8 @@ pub(super) struct Smoothed {
     pub heights: Vec<f64>,
     /// Effective number of parameters.
     pub freedom: f64,
+    /// What the penalty minimises.
+    pub criterion: f64,
 }
 
 /// Heights of the basis functions `entry` of each row: penalised least squares with the penalty of smallest generalised
@@ -175,7 +177,8 @@ pub(super) fn ridge(
     smoothed(penalty, points, entry, error)
 }
 
-/// The same with the penalty of most evidence (Schwarz 1978), which is larger.
+/// The same with the penalty of most evidence (Schwarz 1978), which is larger; the criterion is minus twice the log
+/// evidence but for a constant of the points.
 pub(super) fn evident(
     penalty: &DMatrix<f64>,
     points: &[WeightedResidual],
@@ -221,7 +224,7 @@ fn smoothed(
         Some((worst(left.max(0.0), freedom, rows), heights, freedom))
     };
     let best = PENALTIES.into_iter().filter_map(attempt).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(Smoothed { heights: best.1.iter().copied().collect(), freedom: best.2 })
+    Some(Smoothed { heights: best.1.iter().copied().collect(), freedom: best.2, criterion: best.0 })
 }
 
 /// Fits curves over the columns `own`, and interactions of each of them with another of `own` or `others`, which have
@@ -247,7 +250,7 @@ pub(super) fn surface(
     // The second pass distributes the effect over correlated columns (backfitting).
     for pass in 0..2 {
         for (basis, values) in &own {
-            if let Some(Smoothed { heights, freedom }) =
+            if let Some(Smoothed { heights, freedom, .. }) =
                 ridge(&basis.penalty(), &left, |row| basis.entry(values, row))
             {
                 parameters += if pass == 0 { freedom } else { 0.0 };
@@ -269,7 +272,7 @@ pub(super) fn surface(
             let pair = [(&own[first].0, &own[first].1), (basis, values)];
             let count = pair[0].0.len() * basis.len();
             let entry = |row: usize| products(&pair, row);
-            if let Some(Smoothed { heights, freedom }) =
+            if let Some(Smoothed { heights, freedom, .. }) =
                 ridge(&DMatrix::identity(count, count), &apart, entry)
             {
                 parameters += freedom;
