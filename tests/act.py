@@ -2,8 +2,8 @@
 
     /usr/bin/python3 tests/act.py PAGE < SCRIPT
 
-SCRIPT is the body of an asynchronous function in JavaScript; what it returns is printed. Selenium waits in real time for what
-the script awaits: Chromium's own --virtual-time-budget ends while a picture is still being encoded on a busy machine.
+SCRIPT is the body of an asynchronous function in JavaScript; what it returns is printed. Selenium waits in real time for
+what the script awaits: Chromium's own --virtual-time-budget ends while a picture is still being encoded on a busy machine.
 """
 import pathlib
 import shutil

@@ -317,8 +317,8 @@ mod tests {
         assert_eq!(
             counts.lines("rows")[1..],
             [
-                "1 of 1: density, hardness of a are stated for x; held there; the uncertainty of each moves the outcome by \
-             up to 0.4000",
+                "1 of 1: density, hardness of a are stated for x; held there; the uncertainty of each moves the outcome \
+                 by up to 0.4000",
                 "1 of 1: density of b is stated for x; held there; its uncertainty moves the outcome by up to 0.3000",
             ]
         );

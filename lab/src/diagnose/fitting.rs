@@ -142,7 +142,7 @@ impl<'a> CandidateRound<'a> {
         Some(ScoredCandidate { addition, differences, own_gain, p_value, q_value, log_prior: 0.0 })
     }
 
-    /// Whether it is a surface over columns on which nothing depends yet: its test, of the interplay alone, says little.
+    /// Whether it is a surface over columns on which nothing depends yet: its test is of the interplay alone.
     fn is_whole_surface(&self, candidate: Candidate) -> bool {
         let Candidate::Curve { sides: [Some(one), Some(two)], observable } = candidate else { return false };
         let known = self.hypothesis.columns_of(observable);

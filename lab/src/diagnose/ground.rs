@@ -216,7 +216,7 @@ fn with_input_errors(data: &DataSplit, errors: &Errors) -> Option<Ground> {
     })
 }
 
-/// The rows with these outliers: of all readings, and of those of each quantity alone, which share the prior probability.
+/// The rows with these outliers: of all readings, and of those of each quantity alone. They share the prior probability.
 fn with_outliers(data: &DataSplit, shares: Outliers) -> Vec<Ground> {
     let has = |which: usize| data.rows.iter().any(|row| [row.e_n, row.e_t][which].is_some());
     let kinds: &[[bool; 2]] =

@@ -1,8 +1,8 @@
 //! A level beside laws, or laws that are not exact?
 //!
-//! Beside several laws a shift of the level of `e_n` or `e_t` may gain by what the laws get wrong on average. Inexact laws
-//! explain the rows on which they act as well; where no law acts, the base model has no shift. So an explanation with a
-//! level has a twin without one: the same scores, but those without the level where no law acts.
+//! Beside several laws a shift of the level of `e_n` or `e_t` may gain by what the laws get wrong on average. Inexact
+//! laws explain the rows on which they act as well; where no law acts, the base model has no shift. So an explanation
+//! with a level has a twin without one: the same scores, but those without the level where no law acts.
 
 use super::hypothesis::Hypothesis;
 use super::likelihood::Mean;

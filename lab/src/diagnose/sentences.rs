@@ -80,8 +80,8 @@ pub(super) fn sentences(diagnosis: &Diagnosis) -> String {
     };
     if let Some(share) = diagnosis.gross_errors {
         text += &format!(
-            " Some {:.0} % of the readings{of} lie far from any smooth model: gross errors, or a cause that acts on some \
-             impacts and that no column tells. Look at the largest residuals.",
+            " Some {:.0} % of the readings{of} lie far from any smooth model: gross errors, or a cause that acts on \
+             some impacts and that no column tells. Look at the largest residuals.",
             100.0 * share
         );
     }

@@ -46,7 +46,7 @@ pub(super) fn skewed(data: &DataSplit) -> Ground {
     }
 }
 
-/// Log likelihood of each residual with the widths, of these steps from the narrowest below and above, that fit best [nats].
+/// Log likelihood of each residual with the widths that fit best [nats]; `steps` from the narrowest, below and above.
 fn best(residuals: &[Option<f64>], narrowest: f64, steps: impl Iterator<Item = [i32; 2]>) -> Vec<f64> {
     let width = |step: i32| narrowest * WIDTH_STEP.powi(step);
     let of = |steps: [i32; 2]| -> Vec<f64> {

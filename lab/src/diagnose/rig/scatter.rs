@@ -271,8 +271,8 @@ mod tests {
         }
     }
 
-    /// With gross errors a density is still one: sums over 2 million values, of which a gross error can be those between 0
-    /// and 1. A reading 20 errors off is a gross error, one at 2 is not.
+    /// With gross errors a density is still one: sums over 2 million values, of which a gross error can be those between
+    /// 0 and 1. A reading 20 errors off is a gross error, one at 2 is not.
     #[test]
     fn a_gross_error_has_its_density() {
         let reading = GroupedReading { own: 0.02_f64.powi(2), with: 1.0, misfit: 0.01 };

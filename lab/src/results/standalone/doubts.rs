@@ -75,8 +75,8 @@ impl Doubts {
         lines.extend(self.flow.clone());
         if *too_seldom > 0 {
             lines.push(format!(
-                "{too_seldom} of {injected} particles have relaxation times of 0.3 to 4 in wall units: turbulence brings \
-                 fewer than half as many to walls as measured, down to hardly any at 1"
+                "{too_seldom} of {injected} particles have relaxation times of 0.3 to 4 in wall units: turbulence \
+                 brings fewer than half as many to walls as measured, down to hardly any at 1"
             ));
         }
         if *injected > 0 && self.without_gradient == *injected {
