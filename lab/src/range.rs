@@ -210,16 +210,19 @@ impl RangeCounts {
     }
 }
 
+/// What a reason says of a material: the property, and the rest from the material on.
+fn property_and_range(stated: &str) -> Option<(&str, &str)> {
+    stated.split_once(" of ")
+}
+
 /// Reasons with those of other properties of the same material and range, the order of the first ones kept.
 fn alike<'a>(reasons: Vec<(&'a String, &'a ReasonCount)>) -> Vec<Vec<(&'a String, &'a ReasonCount)>> {
     let mut groups: Vec<Vec<(&String, &ReasonCount)>> = Vec::new();
     for (stated, count) in reasons {
         let is_like = |group: &&mut Vec<(&String, &ReasonCount)>| {
             let (first, known) = group[0];
-            let range = stated.split_once(" of ").map(|(_, range)| range);
-            range.is_some()
-                && range == first.split_once(" of ").map(|(_, range)| range)
-                && known.trial == count.trial
+            let range = |stated| property_and_range(stated).map(|(_, range)| range);
+            range(stated).is_some() && range(stated) == range(first) && known.trial == count.trial
         };
         match groups.iter_mut().find(is_like) {
             Some(group) => group.push((stated, count)),
@@ -234,13 +237,13 @@ fn reason_line(alike: &[(&String, &ReasonCount)], outside: u64) -> String {
     let impacts = alike.iter().map(|(_, count)| count.impacts).max().unwrap_or(0);
     let Some((stated, count)) = alike.first() else { return String::new() };
     let several = |(name, range): (&str, &str)| {
-        let others = alike[1..].iter().filter_map(|(other, _)| Some(other.split_once(" of ")?.0));
+        let others = alike[1..].iter().filter_map(|(other, _)| Some(property_and_range(other)?.0));
         let names: Vec<&str> = std::iter::once(name).chain(others).collect();
         format!("{} of {}", names.join(", "), range.replacen(" is ", " are ", 1))
     };
     let stated = match alike {
         [_] => (*stated).clone(),
-        _ => stated.split_once(" of ").map_or_else(|| (*stated).clone(), several),
+        _ => property_and_range(stated).map_or_else(|| (*stated).clone(), several),
     };
     let moved = count.trial.as_ref().map(|trial| {
         let trial = match alike {
@@ -284,15 +287,14 @@ mod tests {
         );
     }
 
+    fn reason(stated: &str, trial: &str, moved: f64) -> Reason {
+        Reason { stated: stated.to_owned(), value: None, trial: Some(trial.to_owned()), moved: Some(moved) }
+    }
+
     /// Of one impact a reason counts once, and reasons that moved nothing share a line.
     #[test]
     fn reasons_count_once_and_those_without_effect_share_a_line() {
-        let reason = |stated: &str, moved: f64| Reason {
-            stated: stated.to_owned(),
-            value: None,
-            trial: Some("ten percent".to_owned()),
-            moved: Some(moved),
-        };
+        let reason = |stated: &str, moved: f64| reason(stated, "ten percent", moved);
         let [a, b, c] = ["a is stated for x", "b is stated for x", "c is stated for x"];
         let mut counts = RangeCounts::default();
         counts.add(&[reason(a, 0.5), reason(a, 0.5), reason(c, 0.0), reason(b, 1e-5)]);
@@ -304,12 +306,7 @@ mod tests {
     /// Properties of one material and range share a line, the one that moves most first.
     #[test]
     fn properties_of_one_range_share_a_line() {
-        let reason = |stated: &str, moved: f64| Reason {
-            stated: stated.to_owned(),
-            value: None,
-            trial: Some("held there; its uncertainty".to_owned()),
-            moved: Some(moved),
-        };
+        let reason = |stated: &str, moved: f64| reason(stated, "held there; its uncertainty", moved);
         let mut counts = RangeCounts::default();
         let [weak, strong] = [("hardness of a is stated for x", 0.2), ("density of a is stated for x", 0.4)];
         let other = ("density of b is stated for x", 0.3);

@@ -8,7 +8,7 @@ use super::data_split::DataSplit;
 use super::evaluation::Evaluation;
 use super::likelihood::Offset;
 use super::observable::Observable;
-use super::smooth::{Basis, Entry, Smoothed, evident, product, ridge, sum};
+use super::smooth::{Basis, Entry, Smoothed, WeightedResidual, evident, product, ridge, sum};
 use nearwall::effect::{EFFECTS, EffectInfo};
 
 /// The cause of readings that all lie as far from the model.
@@ -82,11 +82,7 @@ impl ColumnCurveForm {
         EFFECTS.into_iter().filter(is_over).map(|effect| effect.id.to_owned()).collect()
     }
 
-    fn smooth(
-        &self,
-        evaluation: &Evaluation<'_>,
-        points: &[super::smooth::WeightedResidual],
-    ) -> Option<Smoothed> {
+    fn smooth(&self, evaluation: &Evaluation<'_>, points: &[WeightedResidual]) -> Option<Smoothed> {
         let entry = |row: usize| self.entry(evaluation.data, row);
         let [(_, Basis::Hats(first)), (_, Basis::Hats(second))] = self.sides.as_slice() else {
             return ridge(&self.penalty(), points, entry);
@@ -143,7 +139,7 @@ impl ColumnCurveForm {
 /// The surface `a + b x y`, the simplest one of two columns, from the products at its knots.
 fn as_product(
     products: &[f64],
-    points: &[super::smooth::WeightedResidual],
+    points: &[WeightedResidual],
     entry: impl Fn(usize) -> Entry,
 ) -> Option<Smoothed> {
     let largest = products.iter().fold(f64::MIN_POSITIVE, |most, product| most.max(product.abs()));

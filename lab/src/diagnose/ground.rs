@@ -24,7 +24,8 @@ pub(super) struct Ground {
     pub slope: Vec<f64>,
     /// Number of fitted parameters.
     pub freedom: f64,
-    /// Logarithm of the prior probability of a rival over that of the rows as they are [nats].
+    /// Logarithm of the prior probability of a rival over that of the rows as they are; of outliers that of their share
+    /// in one noise [nats].
     pub log_prior: f64,
     /// Whether additions can be looked for beside it.
     pub open: bool,
@@ -223,10 +224,8 @@ fn with_outliers(data: &DataSplit, shares: Outliers) -> Vec<Ground> {
         if has(0) && has(1) { &[[true, true], [true, false], [false, true]] } else { &[[true, true]] };
     let with = |&of: &[bool; 2]| {
         let mut noise = data.noise.to_vec();
-        for (outliers, _) in
-            noise.iter_mut().flat_map(|row| row.outliers.iter_mut().zip(of)).filter(|one| one.1)
-        {
-            *outliers = shares;
+        for row in &mut noise {
+            (0..2).filter(|which| of[*which]).for_each(|which| row.outliers[which] = shares);
         }
         let outliers = Some(MoreOutliers { shares, of });
         Ground {

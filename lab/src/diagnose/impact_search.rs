@@ -195,6 +195,12 @@ impl<'a> ImpactSearch<'a> {
         with.collect()
     }
 
+    /// Explanations, the one with most evidence first.
+    fn best_first(&self, mut all: Vec<ImpactExplanation<'a>>) -> Vec<ImpactExplanation<'a>> {
+        all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+        all
+    }
+
     /// The explanation without what was added in this place, fitted anew.
     fn without(&self, of: &ImpactExplanation<'a>, place: usize) -> ImpactExplanation<'a> {
         let mut new = Explanation { keys: keys_without(of, place), ..of.clone() };
@@ -228,8 +234,7 @@ impl<'a> ImpactSearch<'a> {
                 let log_prior = prior(one.addition.class(before.fitted.hypothesis.data), 0);
                 self.beside(&before, ScoredCandidate { log_prior, ..one })
             };
-            let mut all: Vec<ImpactExplanation<'a>> = scored.into_iter().map(beside).collect();
-            all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+            let mut all = self.best_first(scored.into_iter().map(beside).collect());
             all.truncate(self.refitted);
             // A product with a column that hardly varies is the curve once more: the interplay has to be seen.
             let is_seen = |new: &ImpactExplanation<'a>| self.evidence.of(new) > self.evidence.of(of) + SEEN;
@@ -348,8 +353,7 @@ impl<'a> Explained for ImpactSearch<'a> {
             let log_prior = cause + one.addition.shape_prior();
             self.beside(of, ScoredCandidate { log_prior, ..one })
         });
-        let mut all: Vec<ImpactExplanation<'a>> = beside.collect();
-        all.sort_by(|a, b| self.evidence.of(b).total_cmp(&self.evidence.of(a)));
+        let mut all = self.best_first(beside.collect());
         let rest = all.split_off(all.len().min(self.refitted));
         let mut found: Vec<_> = all.into_par_iter().map(|new| self.refitted(of, new)).collect();
         found.extend(below.into_iter().chain(rest));

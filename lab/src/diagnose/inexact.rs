@@ -4,8 +4,9 @@
 //! laws explain the rows on which they act as well; where no law acts, the base model has no shift. So an explanation
 //! with a level has a twin without one: the same scores, but those without the level where no law acts.
 
+use super::evaluation::Evaluation;
 use super::hypothesis::Hypothesis;
-use super::likelihood::Mean;
+use super::likelihood::{Mean, Scatter};
 
 /// Least number of laws: one law takes on a level as far as it can when both are fitted.
 pub(super) const LEAST_LAWS: usize = 2;
@@ -20,19 +21,19 @@ const UNMOVED_CAPTURE: f64 = 0.01;
 /// [nats].
 pub(super) fn gains_of_inexact_laws(with: &Hypothesis<'_>, without: &Hypothesis<'_>) -> Vec<f64> {
     let data = with.data;
-    let evaluate = |one: &Hypothesis<'_>| -> (Vec<Mean>, Vec<f64>) {
-        let evaluation = one.evaluate(&*data.search, one.offsets()).with_scatter(with.scatter);
-        (evaluation.means().map(|(_, mean)| mean).collect(), evaluation.scores())
-    };
-    let (_, with_level) = evaluate(with);
-    let (others, without_level) = evaluate(without);
-    let (base, _) = evaluate(&Hypothesis::with_parts(data, Vec::new(), with.scatter));
-    let gain = |place: usize| {
-        let (other, base) = (&others[place], &base[place]);
+    let base = Hypothesis::with_parts(data, Vec::new(), with.scatter);
+    let [with_level, others, base] = [with, without, &base].map(|one| evaluated(one, with.scatter));
+    let acts = |((_, other), (_, base)): ((_, Mean), (_, Mean))| {
         let moved = |which: usize| (other.restitution[which] - base.restitution[which]).abs();
-        let is_alone = (0..2).all(|which| moved(which) < UNMOVED * with.scatter[which])
-            && (other.capture - base.capture).abs() < UNMOVED_CAPTURE;
-        if is_alone { without_level[place] - with_level[place] } else { 0.0 }
+        (0..2).any(|which| moved(which) >= UNMOVED * with.scatter[which])
+            || (other.capture - base.capture).abs() >= UNMOVED_CAPTURE
     };
-    (0..base.len()).map(gain).collect()
+    let acting = others.means().zip(base.means()).map(acts);
+    let changes = others.scores().into_iter().zip(with_level.scores()).map(|(without, with)| without - with);
+    changes.zip(acting).map(|(change, acts)| if acts { 0.0 } else { change }).collect()
+}
+
+/// The rows of the search under a hypothesis, with this scatter.
+fn evaluated<'a>(one: &Hypothesis<'a>, scatter: Scatter) -> Evaluation<'a> {
+    one.evaluate(&*one.data.search, one.offsets()).with_scatter(scatter)
 }
