@@ -190,6 +190,27 @@ fn a_throw_hits_the_floor_as_newton_says() {
     assert!((hit.position.z - 0.5e-4).abs() < 1e-9);
 }
 
+/// A throw leaves through an exit above it if its highest point lies there, be it by a micrometre and within one step.
+#[test]
+fn a_throw_leaves_through_an_exit_that_it_hardly_reaches() {
+    let gas = format!("field = \"uniform\"\nvelocity = [0, 0, 0]\n{THIN}");
+    let exit = "[[exits]]\nname = \"top\"\nshape = \"plane\"\npoint = [0, 0, 1.1]\nnormal = [0, 0, -1]";
+    let case = case(&plane(&gas, ONE, "", exit));
+    let motion = ParticleMotion { gas: &case.gas, gravity: Vector3::z() * -9.81, body: body(1e-4, 1000.0) };
+    for beyond in [-1e-3, -1e-6, 1e-6, 1e-4, 1e-3, 1e-2] {
+        let up = (2.0f64 * 9.81 * (0.1 + beyond)).sqrt();
+        let start = state(&Vector3::z(), &Vector3::new(3.0, 0.0, up), 300.0, 1.0);
+        for tolerance in [1e-8, 1e-6, 1e-4] {
+            let end = fly(&motion, &case.surfaces, 0.0, 100.0, &start, tolerance).unwrap();
+            let reached = end.surface.map(|index| case.surfaces[index].name.as_str());
+            assert_eq!(reached, Some(if beyond > 0.0 { "top" } else { "floor" }), "{beyond} {tolerance}");
+            if beyond > 0.0 {
+                near(end.time, (up - (2.0f64 * 9.81 * beyond).sqrt()) / 9.81, 1e-5);
+            }
+        }
+    }
+}
+
 /// A ball that keeps half of its speed at each hit: times and speeds are geometric series.
 #[test]
 fn a_bouncing_ball_follows_the_geometric_series() {

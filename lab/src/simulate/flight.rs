@@ -11,7 +11,7 @@ use differential_equations::status::Status;
 
 use super::error::SimulationError;
 use super::motion::{
-    Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, PathSolver, position, reach,
+    Body, CONVERSION, PATH_POINTS, ParticleMotion, ParticleState, PathSolver, position, reach, velocity,
 };
 use super::near_wall::StayTimes;
 use super::surface::{Surface, SurfaceShape};
@@ -227,13 +227,16 @@ pub(super) fn contact(
 ) -> Option<FlightEnd> {
     let mut first: Option<FlightEnd> = None;
     for (index, surface) in surfaces.iter().enumerate() {
-        let gap = |state: &ParticleState| surface.gap(&position(state), body.diameter_at(state[CONVERSION]));
-        let at_start = gap(&step.states[0]);
+        let distance = |state: &ParticleState| {
+            let (place, diameter) = (position(state), body.diameter_at(state[CONVERSION]));
+            [surface.gap(&place, diameter), surface.shape.normal(&place).dot(&velocity(state))]
+        };
+        let [at_start, _] = distance(&step.states[0]);
         // Rounding may leave a particle that has just rebounded a hair behind the wall.
         if at_start > reach(&surface.shape) || at_start < -1e-6 * body.diameter {
             continue;
         }
-        if let Some(arrival) = crossing(at, &gap, NEAR * body.diameter, step)
+        if let Some(arrival) = crossing(at, &distance, NEAR * body.diameter, step)
             && surface.shape.covers(&position(&arrival.1))
             && first.as_ref().is_none_or(|earlier| arrival.0 < earlier.time)
         {
@@ -246,25 +249,64 @@ pub(super) fn contact(
 /// The last time and state in front of the surface, when the step leads behind it: at most `near` [m] away.
 fn crossing(
     at: &mut impl FnMut(f64) -> ParticleState,
-    gap: &impl Fn(&ParticleState) -> f64,
+    distance: &impl Fn(&ParticleState) -> [f64; 2],
     near: f64,
     &Step { times: [from, to], states: [before, after] }: &Step,
 ) -> Option<(f64, ParticleState)> {
-    let (mut low, mut in_front) = (from, gap(&before));
+    let point = |(time, state): (f64, ParticleState)| PathPoint::new(time, distance(&state));
+    let mut last = point((from, before));
     for place in 1..=PATH_POINTS {
-        let high = if place == PATH_POINTS {
-            to
-        } else {
-            from + (to - from) * f64::from(place) / f64::from(PATH_POINTS)
-        };
-        let there = if place == PATH_POINTS { after } else { at(high) };
-        let behind = gap(&there);
-        if behind >= 0.0 {
-            (low, in_front) = (high, behind);
-            continue;
+        let time = from + (to - from) * f64::from(place) / f64::from(PATH_POINTS);
+        let next = point(if place == PATH_POINTS { (to, after) } else { (time, at(time)) });
+        let mut between = |time| point((time, at(time)));
+        let behind = if next.gap < 0.0 { Some(next) } else { dip(&mut between, [last, next]) };
+        if let Some(behind) = behind {
+            let arrival = arrival(|time| between(time).gap, near, [last, behind]);
+            return Some((arrival, at(arrival)));
         }
-        let arrival = arrival(|time| gap(&at(time)), near, [low, high], [in_front, behind]);
-        return Some((arrival, at(arrival)));
+        last = next;
+    }
+    None
+}
+
+/// A point of a path.
+#[derive(Clone, Copy)]
+struct PathPoint {
+    /// [s]
+    time: f64,
+    /// Gap to the surface [m].
+    gap: f64,
+    /// How fast the gap grows [m/s].
+    opening: f64,
+}
+
+impl PathPoint {
+    fn new(time: f64, [gap, opening]: [f64; 2]) -> Self {
+        Self { time, gap, opening }
+    }
+}
+
+/// A point behind the surface between two in front of it, where the path comes nearer and goes away again.
+fn dip(
+    between: &mut impl FnMut(f64) -> PathPoint,
+    [mut before, mut after]: [PathPoint; 2],
+) -> Option<PathPoint> {
+    for _ in 0..CONTACT_ITERATIONS {
+        let duration = after.time - before.time;
+        let bend = after.opening - before.opening;
+        if !(before.opening < 0.0 && after.opening > 0.0 && duration > 0.0) {
+            return None;
+        }
+        // A path that bends away from the surface lies in front of both tangents, which meet here.
+        let meeting = (before.gap - after.gap + after.opening * duration) / bend;
+        if before.gap + before.opening * meeting >= 0.0 {
+            return None;
+        }
+        let lowest = between(before.time - before.opening / bend * duration);
+        if lowest.gap < 0.0 {
+            return Some(lowest);
+        }
+        if lowest.opening < 0.0 { before = lowest } else { after = lowest }
     }
     None
 }
@@ -272,14 +314,10 @@ fn crossing(
 /// A time at which the gap is within 0 to `near`, between one with a positive and one with a
 /// negative gap. Illinois method: the secant, with the gap of an end that stays for a second time
 /// halved.
-fn arrival(
-    mut gap: impl FnMut(f64) -> f64,
-    near: f64,
-    [mut low, mut high]: [f64; 2],
-    [in_front, behind]: [f64; 2],
-) -> f64 {
+fn arrival(mut gap: impl FnMut(f64) -> f64, near: f64, [in_front, behind]: [PathPoint; 2]) -> f64 {
     let aim = 0.5 * near;
-    let (mut at_low, mut at_high) = (in_front - aim, behind - aim);
+    let (mut low, mut high) = (in_front.time, behind.time);
+    let (mut at_low, mut at_high) = (in_front.gap - aim, behind.gap - aim);
     let mut last_moved = 0.0;
     for _ in 0..CONTACT_ITERATIONS {
         let secant = high - at_high * (high - low) / (at_high - at_low);
