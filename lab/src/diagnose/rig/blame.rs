@@ -1,6 +1,7 @@
 //! Whose fault a misfit is: the wall law's, or that of the case's numbers.
 
 use serde::Serialize;
+use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::super::constants::LISTED;
 use super::super::part::rounded;
@@ -13,6 +14,9 @@ use crate::rig::{CaseNumber, PredictedReading, PredictionError};
 /// Least fall of chi-square of which shares are told [1]: that of one parameter by chance once in a
 /// hundred.
 const LEAST_FALL: f64 = 6.63;
+/// p-value of the readings under the base model as it is, with the case as it is, above which there is no misfit to
+/// share [1].
+const NO_MISFIT: f64 = 0.05;
 /// Half a 95 % interval in standard deviations.
 const NORMAL_95: f64 = 1.96;
 
@@ -91,6 +95,16 @@ struct Carried {
     fall: f64,
 }
 
+/// What all parties carry.
+struct Carriers {
+    /// p-value of the base model without errors of the case [1].
+    misfit: f64,
+    /// Fall of chi-square by the wall law [1].
+    by_law: f64,
+    /// By number of the case.
+    by_number: Vec<Carried>,
+}
+
 /// What the parties of the most probable explanation carry, the largest share first, as many as carry 95 %;
 /// none where nothing more than chance is carried.
 ///
@@ -98,9 +112,10 @@ struct Carried {
 /// Why an impact cannot be decided.
 pub(super) fn blame(study: &RigStudy<'_>, choice: &RigChoice) -> Result<Vec<Blame>, PredictionError> {
     let numbers = study.forward.case_numbers();
-    let (by_law, by_number) = carried(study, choice.explanations.best_additions())?;
+    let additions = choice.explanations.best_additions();
+    let Carriers { misfit, by_law, by_number } = carried(study, additions)?;
     let total = by_law + by_number.iter().map(|one| one.fall).sum::<f64>();
-    if total < LEAST_FALL {
+    if total < LEAST_FALL || additions.is_empty() && misfit > NO_MISFIT {
         return Ok(Vec::new());
     }
     let of = |(number, one): (&CaseNumber, &Carried)| Blame {
@@ -144,7 +159,7 @@ pub(super) fn settled(
 }
 
 /// By how much chi-square falls by the wall law of these additions, then by each number of the case.
-fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<Carried>), PredictionError> {
+fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<Carriers, PredictionError> {
     let (case, law): (Vec<_>, Vec<_>) =
         additions.iter().cloned().partition(|addition| addition.case_number().is_some());
     let whole = predict(study.forward, additions)?;
@@ -153,6 +168,7 @@ fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<
     let regular = study.data.regular(&whole, &weights);
     let fit = |predicted: &[PredictedReading]| study.data.case_fit(&regular, predicted, &scatter);
     let mut left = fit(&study.table.base).chi_square;
+    let misfit = ChiSquared::new(regular.len() as f64).map_or(1.0, |law| law.sf(left));
     let mut fall = |predicted: &[PredictedReading]| {
         let before = left;
         left = fit(predicted).chi_square;
@@ -172,7 +188,7 @@ fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<(f64, Vec<
         one.widths = [one.widths[0] + error, NORMAL_95 * deviation];
         one.fall += fall.max(0.0);
     }
-    Ok((by_law, by_number))
+    Ok(Carriers { misfit, by_law, by_number })
 }
 
 /// A number of the case at a distance from its value, with half the interval of that.
