@@ -65,7 +65,7 @@ pub(super) fn hit_regimes(comparison: &RunComparison<'_>) -> Vec<Figure> {
     bars.map(|bars| bars.figure("hit-regimes", REGIME_NAMES)).into_iter().collect()
 }
 
-/// Stacked bars of the regimes at each wall as a percentage of `whole`; `None` when all are empty.
+/// Stacked bars of the regimes that occur at any wall as a percentage of `whole`; `None` when none does.
 fn stacked(
     comparison: &RunComparison<'_>,
     run: &RunResults,
@@ -80,8 +80,10 @@ fn stacked(
             totals.map_or(0.0, |totals| 100.0 * share(of(totals, regime), whole(totals)))
         };
         let parts: Vec<f64> = comparison.walls.iter().map(part).collect();
-        any |= parts.iter().any(|part| *part > 0.0);
-        bars = bars.coloured(regime.name(), regime_colour(regime), &parts);
+        if parts.iter().any(|part| *part > 0.0) {
+            bars = bars.coloured(regime.name(), regime_colour(regime), &parts);
+            any = true;
+        }
     }
     any.then_some(bars)
 }
