@@ -56,7 +56,7 @@ fn pages_of_the_standalone_examples() {
     }
 }
 
-/// Cold solid tungsten on cold solid walls: neither is ever sticky.
+/// Cold solid tungsten on cold solid walls: neither is ever sticky, and nothing burns.
 #[test]
 fn a_page_names_only_what_occurs() {
     let page = |name, count| {
@@ -69,6 +69,10 @@ fn a_page_names_only_what_occurs() {
         assert!(!dust.contains(&entry(regime)), "{regime}");
     }
     assert!(coal.contains(&entry("NSP-SW")));
+    for of_coal in ["conversion at capture", "law of carbon conversion", "the carbon in the powder burns"] {
+        assert!(coal.contains(of_coal), "{of_coal}");
+    }
+    assert!(!dust.contains("carbon") && !dust.contains("conversion"));
 }
 
 #[test]

@@ -167,7 +167,10 @@ pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
             ("captured / injected mass", |c, run, wall| {
                 Some(percent(share(run.captured(wall, c.time)?.mass(), c.injected(run))))
             }),
-            ("conversion at capture", |c, run, wall| Some(spread(&c.totals(run, wall)?.captured_conversion))),
+            ("conversion at capture", |c, run, wall| {
+                let conversion = &c.totals(run, wall)?.captured_conversion;
+                (run.has_carbon || conversion.mean < 1.0).then(|| spread(conversion))
+            }),
         ],
     )
 }

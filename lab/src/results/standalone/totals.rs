@@ -145,7 +145,7 @@ pub struct RunTotals {
     pub exits: Vec<(usize, Amount)>,
     /// Every capture, in the order of the particles.
     pub captures: Vec<Capture>,
-    /// Whether a captured particle had carbon left.
+    /// Whether the particles start with carbon.
     pub has_carbon: bool,
     /// What the results are not good for.
     pub doubts: Doubts,
@@ -154,7 +154,8 @@ pub struct RunTotals {
 impl RunTotals {
     pub(super) fn new(case: &Case) -> Self {
         let injections = vec![ParticleEnds::default(); case.injections.len()];
-        let mut totals = Self { injections, doubts: Doubts::new(case), ..Self::default() };
+        let (has_carbon, doubts) = (case.has_carbon(), Doubts::new(case));
+        let mut totals = Self { injections, has_carbon, doubts, ..Self::default() };
         for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
                 SurfaceKind::Wall { .. } => {
@@ -183,7 +184,6 @@ impl RunTotals {
         }
         match &trajectory.fate {
             Fate::Stuck(surface) => {
-                self.has_carbon |= trajectory.conversion < 1.0;
                 if let Some(hit) = trajectory.hits.last() {
                     self.captures.push(Capture {
                         wall: self.walls.iter().position(|(index, _)| index == surface),
