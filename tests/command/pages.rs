@@ -59,9 +59,8 @@ fn pages_of_the_standalone_examples() {
 /// Cold solid tungsten on cold solid walls: neither is ever sticky, and nothing burns.
 #[test]
 fn a_page_names_only_what_occurs() {
-    let page = |name, count| {
-        std::fs::read_to_string(simulated(name, count).path().join("out/report.html")).unwrap()
-    };
+    let page =
+        |name, count| std::fs::read_to_string(simulated(name, count).path().join("out/report.html")).unwrap();
     let [dust, coal] = [page("tungstenDust", "50"), page("gasifier", "300")];
     let entry = |name: &str| format!(">{name}</text>");
     assert!(dust.contains(&entry("NSP-NSW")));

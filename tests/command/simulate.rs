@@ -8,6 +8,7 @@ use std::process::Command;
 use nalgebra::{Complex, Vector3};
 use nearwall::deposit::PROCESSES;
 use nearwall::deposit::resuspension::{AdhesionDistribution, Conditions, jkr_force};
+use nearwall_lab::results::MapQuantity;
 use nearwall_lab::results::standalone::{Doubts, ImpactRecorder, Run, run};
 use nearwall_lab::simulate::{
     BinHistory, Body, CarbonConversion, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly,
@@ -453,7 +454,8 @@ fn what_goes_in_is_what_ends_somewhere() {
 #[test]
 fn erosion_sums_over_the_hits() {
     let text = rig(100, 300.0, 5) + "[model.erosion]\nlaw = \"finnie\"\nflow_stress = 2e9\n";
-    let (trajectories, runs) = trajectories(&mut case(&text));
+    let mut case = case(&text);
+    let (trajectories, runs) = trajectories(&mut case);
     let volume = |hit: &Hit| {
         let (angle, energy) = (hit.impact.angle_from_surface(), hit.mass * hit.impact.speed().powi(2));
         let sine = angle.sin();
@@ -466,6 +468,15 @@ fn erosion_sums_over_the_hits() {
     let expected: f64 = trajectories.iter().flat_map(|trajectory| &trajectory.hits).map(volume).sum();
     assert!(expected > 0.0);
     near(runs[0].totals.walls[0].1.eroded.unwrap(), expected, 1e-9);
+    // Its map has them all, each where it was.
+    let maps = runs[0].results(&case).maps;
+    let map = maps.iter().find(|map| map.quantity == MapQuantity::Eroded).unwrap();
+    near(map.places.iter().map(|(_, volume)| volume).sum(), expected, 1e-9);
+    let mut hits = trajectories.iter().flat_map(|trajectory| &trajectory.hits);
+    assert!(map.places.iter().all(|([a, b], _)| {
+        let place = hits.next().unwrap().position;
+        (a.hypot(*b) - place.x.hypot(place.y)).abs() < 1e-12
+    }));
 }
 
 /// First hits stick with the logistic probability of the effect: the count is binomial.

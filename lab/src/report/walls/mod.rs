@@ -26,7 +26,7 @@ use crate::rig::{Band, CaptureBand};
 use crate::simulate::Case;
 
 /// The sections of a page before and after the maps of the deposit: heading, figures, and the table under them.
-const SECTIONS: [PageSection; 8] = [
+const SECTIONS: [PageSection; 9] = [
     (
         "Where material is captured",
         &[captured::by_wall, captured::regimes, captured::hit_regimes, places::along, captured::history],
@@ -37,7 +37,8 @@ const SECTIONS: [PageSection; 8] = [
     ("What arrives at the walls", &[arriving::figures], arriving::table),
     ("How particles rebound", &[rebound::normal, rebound::tangential], rebound::table),
     ("How densely particles linger at the walls", &[near_wall::figures], near_wall::table),
-    ("Where captured particles lie", &[places::maps, places::scatter], nothing),
+    ("Where captured particles lie", &[places::captured_maps, places::scatter], nothing),
+    ("Where walls are eroded", &[places::eroded_maps], nothing),
     ("What lies on the walls over time", &[deposit::figures], nothing),
 ];
 const LAST_SECTIONS: [PageSection; 2] =

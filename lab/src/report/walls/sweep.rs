@@ -6,7 +6,7 @@ use crate::report::format::with_deviation;
 use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Doubts, Run, RunTotals};
-use crate::results::{Moments, WallTotals, share, wilson};
+use crate::results::{MapQuantity, Moments, WallTotals, share, wilson};
 use crate::rig::Band;
 use crate::simulate::{Case, Sweep, sweep_unit};
 
@@ -69,10 +69,18 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
         page.heading("Outside of stated ranges");
         doubts.into_iter().for_each(|line| page.note(format!("{line}.")));
     }
-    let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
-    if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {
-        page.heading(format!("Where particles are captured at {}", axis.at(run)));
-        page.figures(map_figures(&run.results(case)));
+    let captured = |run: &Run| run.totals.ends.captured.count as f64;
+    let eroded = |run: &Run| run.totals.walls.iter().filter_map(|(_, wall)| wall.eroded).sum();
+    let of_most: [(&str, MapQuantity, &dyn Fn(&Run) -> f64); 2] = [
+        ("Where particles are captured", MapQuantity::Captured, &captured),
+        ("Where walls are eroded", MapQuantity::Eroded, &eroded),
+    ];
+    for (heading, quantity, amount) in of_most {
+        let most = runs.iter().max_by(|a, b| amount(a).total_cmp(&amount(b)));
+        if let Some(run) = most.filter(|run| amount(run) > 0.0) {
+            page.heading(format!("{heading} at {}", axis.at(run)));
+            page.figures(map_figures(&run.results(case), quantity, &[]));
+        }
     }
 }
 
