@@ -100,14 +100,15 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         errors.push((part - low, high - part));
         every.push([axis.value(run), 100.0 * captured_mass(&run.totals)]);
     }
-    let chart = Chart::new("Capture", &axis.label(), "captured [%]");
+    let chart = Chart::new("Capture", &axis.label(), "captured share [%]");
     let chart = with_band(chart, axis, runs);
     let chart = with_references(chart, axis, sweep, "capture", 100.0)
-        .points_with_errors("first hits", &first, &errors)
-        .line("of the mass, in the end", &every);
+        .points_with_errors("share of the number of first hits", &first, &errors)
+        .line("share of the injected mass, in the end", &every);
     chart.y_range(0.0, 100.0).figure(
         "sweep-capture",
-        "Captured share of first hits, with its 95 % interval, and captured share of all mass at the end.",
+        "Points: how many of all first hits end in capture, with the 95 % interval. Line: the captured part of the \
+            injected mass in the end, which large particles dominate and to which later hits add.",
     )
 }
 
@@ -190,7 +191,7 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("first hits", &|run| run.totals.first_hits()[0].to_string()),
         ("captured", &|run| run.totals.first_hits()[1].to_string()),
         ("captured at first hit (95 %)", &first),
-        ("captured at the end", &|run| percent(captured_mass(&run.totals))),
+        ("mass captured in the end", &|run| percent(captured_mass(&run.totals))),
         ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
         ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
         ("resultant impact speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),
