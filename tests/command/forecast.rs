@@ -292,8 +292,16 @@ fusion_temperatures = { deformation = 1300, softening = 1366.6667, flow = 1500 }
         .replace("temperature = 300\nspeed", "temperature = 1400\nspeed");
     let files = folder(&[("case.toml", &case.replace("count = 50", "count = 2000"))]);
     let path = files.path();
-    done(path, &["sensitivity", "case.toml", "-o", "out", "--clean-walls"]);
+    let set = "--set model.tangential.e_t=0.7";
+    let command = format!("sensitivity case.toml -o out --clean-walls {set}");
+    done(path, &command.split(' ').collect::<Vec<_>>());
     let found = json(&path.join("out/sensitivity.json"));
+    // What makes the base another one than that of `simulate`.
+    let page = std::fs::read_to_string(path.join("out/report.html")).unwrap();
+    for said in [set, "1000 of the case's 2000 particles are followed", "Share of the injected mass, of 1000"]
+    {
+        assert!(page.contains(&said.replace('\'', "&#39;")), "{said}");
+    }
     let numbers = found["numbers"].as_array().unwrap();
     let key = "model.materials.ash.fusion_temperatures";
     let sheet = numbers.iter().find(|number| number["key"] == key).unwrap();
