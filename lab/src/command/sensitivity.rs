@@ -55,7 +55,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let mut found = case.run(&|| bar.inc(1)).map_err(at_case)?;
     bar.finish_and_clear();
     if !arguments.set.is_empty() {
-        found.notes.insert(0, format!("--set {}", arguments.set.join(" --set ")));
+        found.notes.insert(0, format!("changed by --set: {}", arguments.set.join(", ")));
     }
     let beside = || {
         let name = arguments.case.file_stem().unwrap_or_default().to_string_lossy();

@@ -305,10 +305,10 @@ impl SensitivityCase {
             notes.push("walls without a memory".to_owned());
         }
         add_materials(&mut document);
-        let base = text.read(&document)?;
-        if base.sweep.is_some() {
-            notes.push("the [sweep] is left out".to_owned());
+        if text.has_sweep() {
+            notes.push("the [sweep] is left out: each number is that of the case or of --set".to_owned());
         }
+        let base = text.read(&document)?;
         let stated = base.count();
         if stated > particles {
             for place in injections(&document) {
