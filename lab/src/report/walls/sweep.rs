@@ -69,18 +69,23 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
         page.heading("Outside of stated ranges");
         doubts.into_iter().for_each(|line| page.note(format!("{line}.")));
     }
-    let captured = |run: &Run| run.totals.ends.captured.count as f64;
-    let eroded = |run: &Run| run.totals.walls.iter().filter_map(|(_, wall)| wall.eroded).sum();
-    let of_most: [(&str, MapQuantity, &dyn Fn(&Run) -> f64); 2] = [
-        ("Where particles are captured", MapQuantity::Captured, &captured),
-        ("Where walls are eroded", MapQuantity::Eroded, &eroded),
-    ];
-    for (heading, quantity, amount) in of_most {
-        let most = runs.iter().max_by(|a, b| amount(a).total_cmp(&amount(b)));
-        if let Some(run) = most.filter(|run| amount(run) > 0.0) {
+    for (quantity, heading) in [
+        (MapQuantity::Captured, "Where particles are captured"),
+        (MapQuantity::Eroded, "Where walls are eroded"),
+    ] {
+        let most = runs.iter().max_by(|a, b| left(a, quantity).total_cmp(&left(b, quantity)));
+        if let Some(run) = most.filter(|run| left(run, quantity) > 0.0) {
             page.heading(format!("{heading} at {}", axis.at(run)));
             page.figures(map_figures(&run.results(case), quantity, &[]));
         }
+    }
+}
+
+/// What a run leaves on its walls: the number of captured particles, or the eroded volume [m³].
+fn left(run: &Run, quantity: MapQuantity) -> f64 {
+    match quantity {
+        MapQuantity::Captured => run.totals.ends.captured.count as f64,
+        MapQuantity::Eroded => run.totals.walls.iter().filter_map(|(_, wall)| wall.eroded).sum(),
     }
 }
 

@@ -312,18 +312,13 @@ impl RunTotals {
         left.for_each(|(wall, place, amount)| {
             places[wall].push((shape(wall).unrolled(&place.into()), amount));
         });
-        let map = |((index, _), places): (&(usize, WallTotals), Vec<([f64; 2], f64)>)| {
-            let surface = &case.surfaces[*index];
+        let surfaces = self.walls.iter().map(|(index, _)| &case.surfaces[*index]);
+        let with_any = surfaces.zip(places).filter(|(_, places)| !places.is_empty());
+        let maps = with_any.map(|(surface, places)| {
             let (axes, ranges) = (surface.shape.axes(), map_ranges(&surface.shape, &places));
-            (!places.is_empty()).then(|| WallMap {
-                quantity,
-                wall: surface.name.clone(),
-                axes,
-                ranges,
-                places,
-            })
-        };
-        self.walls.iter().zip(places).filter_map(map).collect()
+            WallMap { quantity, wall: surface.name.clone(), axes, ranges, places }
+        });
+        maps.collect()
     }
 
     fn pipe(&self, case: &Case) -> Option<PipeZones> {
