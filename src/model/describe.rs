@@ -1,5 +1,7 @@
 //! The content of a model in words, for `nearwall check`.
 
+use std::collections::BTreeSet;
+
 use super::wall::Covering;
 use super::{Model, Wall};
 use crate::effect::{CurveInput, Term};
@@ -17,11 +19,9 @@ const UNKNOWN_STIFFENING: &str = " that counts as a liquid at every temperature:
     equation, and has neither critical_viscosity_temperature nor fusion_temperatures";
 
 /// A remark where the analysis of a material leaves much out.
-fn incomplete(material: &Material) -> Option<(&'static str, String)> {
+fn incomplete(material: &Material) -> Option<String> {
     let (name, sum) = (material.name(), material.incomplete_sum()?);
-    let note =
-        format!("the composition of {name} adds up to {sum:.1} wt% and is taken as 100; check the sheet");
-    Some(("note", note))
+    Some(format!("the composition of {name} adds up to {sum:.1} wt% and is taken as 100; check the sheet"))
 }
 
 impl Model {
@@ -48,8 +48,24 @@ impl Model {
             lines.push(("effect", term.describe(&self.declared())));
         }
         lines.extend(self.estimates());
-        lines.extend(self.counted_twice().map(|note| ("note", note)));
+        lines.extend(self.notes().into_iter().map(|note| ("note", note)));
         lines
+    }
+
+    /// What in the model is probably a mistake: an analysis that leaves much out, or a temperature that counts twice.
+    pub fn notes(&self) -> Vec<String> {
+        let notes: BTreeSet<String> =
+            self.used_materials().filter_map(incomplete).chain(self.counted_twice()).collect();
+        notes.into_iter().collect()
+    }
+
+    /// The materials in use, some of them more than once.
+    fn used_materials(&self) -> impl Iterator<Item = &Material> {
+        let of_walls = self
+            .walls
+            .iter()
+            .flat_map(|wall| [Some(&wall.material), wall.slag.as_ref(), wall.powder.as_ref()]);
+        [Some(self.particle()), self.ash()].into_iter().chain(of_walls).flatten()
     }
 
     /// The built-in groups on which terms depend, each once, in words.
@@ -65,22 +81,17 @@ impl Model {
     /// What decides the stickiness of the particles and has a band, and the properties of the materials in use that
     /// follow from a composition, each with the error that its law states. Fusion temperatures and viscosity have 90 %
     /// bands; density, elastic constants and surface tension a bound; the temperature of critical viscosity after Watt
-    /// and all that is given or built in have none. And a remark where an analysis leaves much out.
+    /// and all that is given or built in have none.
     pub fn estimates(&self) -> Vec<(&'static str, String)> {
-        let of_walls = self
-            .walls
-            .iter()
-            .flat_map(|wall| [Some(&wall.material), wall.slag.as_ref(), wall.powder.as_ref()]);
         let known = self.stickiness.as_ref().and_then(|criterion| criterion.describe());
         let mut lines: Vec<_> = known.map(|known| ("stickiness", known)).into_iter().collect();
-        for material in [Some(self.particle()), self.ash()].into_iter().chain(of_walls).flatten() {
+        for material in self.used_materials() {
             for (key, origin) in material.estimated() {
                 let line = ("estimated", format!("{key} of {}, {origin}", material.name()));
                 if !lines.contains(&line) {
                     lines.push(line);
                 }
             }
-            lines.extend(incomplete(material).filter(|line| !lines.contains(line)));
         }
         lines
     }

@@ -290,10 +290,23 @@ fusion_temperatures = { deformation = 1300, softening = 1366.6667, flow = 1500 }
 "#;
     let case = plate(&nested(model), "speed = 1", "")
         .replace("temperature = 300\nspeed", "temperature = 1400\nspeed");
-    let files = folder(&[("case.toml", &case.replace("count = 50", "count = 2000"))]);
+    let sweep = "[sweep]\nkey = \"gas_temperature\"\nvalues = [300, 310]\n";
+    let case = case.replace("count = 50", "count = 2000") + sweep;
+    let files = folder(&[("case.toml", &case)]);
     let path = files.path();
-    done(path, &["sensitivity", "case.toml", "-o", "out", "--clean-walls"]);
+    let command = "sensitivity case.toml -o out --clean-walls --set model.tangential.e_t=0.7";
+    done(path, &command.split(' ').collect::<Vec<_>>());
     let found = json(&path.join("out/sensitivity.json"));
+    // What makes the base another one than that of `simulate`.
+    let page = std::fs::read_to_string(path.join("out/report.html")).unwrap();
+    for said in [
+        "changed by --set: model.tangential.e_t=0.7",
+        "the [sweep] is left out",
+        "1000 of the case&#39;s 2000 particles are followed",
+        "Share of the injected mass, of 1000 particles",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
     let numbers = found["numbers"].as_array().unwrap();
     let key = "model.materials.ash.fusion_temperatures";
     let sheet = numbers.iter().find(|number| number["key"] == key).unwrap();

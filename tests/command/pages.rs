@@ -56,6 +56,24 @@ fn pages_of_the_standalone_examples() {
     }
 }
 
+/// Cold solid tungsten on cold solid walls: neither is ever sticky, and nothing burns.
+#[test]
+fn a_page_names_only_what_occurs() {
+    let page =
+        |name, count| std::fs::read_to_string(simulated(name, count).path().join("out/report.html")).unwrap();
+    let [dust, coal] = [page("tungstenDust", "50"), page("gasifier", "300")];
+    let entry = |name: &str| format!(">{name}</text>");
+    assert!(dust.contains(&entry("NSP-NSW")));
+    for regime in ["NSP-SW", "SP-NSW", "SP-SW"] {
+        assert!(!dust.contains(&entry(regime)), "{regime}");
+    }
+    assert!(coal.contains(&entry("NSP-SW")));
+    for of_coal in ["conversion at capture", "law of carbon conversion", "the carbon in the powder burns"] {
+        assert!(coal.contains(of_coal), "{of_coal}");
+    }
+    assert!(!dust.contains("carbon") && !dust.contains("conversion"));
+}
+
 #[test]
 fn page_of_a_table_of_runs() {
     let folder = tempfile::tempdir().unwrap();

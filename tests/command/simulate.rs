@@ -8,6 +8,7 @@ use std::process::Command;
 use nalgebra::{Complex, Vector3};
 use nearwall::deposit::PROCESSES;
 use nearwall::deposit::resuspension::{AdhesionDistribution, Conditions, jkr_force};
+use nearwall_lab::results::MapQuantity;
 use nearwall_lab::results::standalone::{Doubts, ImpactRecorder, Run, run};
 use nearwall_lab::simulate::{
     BinHistory, Body, CarbonConversion, Case, Fate, Fusion, Hit, ParticleMotion, Shrinkage, Trajectory, fly,
@@ -410,6 +411,8 @@ fn spin_is_carried_to_the_next_hit() {
 
 // --- sums and statistics ---------------------------------------------------------------------------------------------
 
+const MELTING: &str = "[[model.effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n";
+
 /// A warm rig: a tilted plate in a jet, sticky with a known probability.
 fn rig(count: u32, temperature: f64, seed: u32) -> String {
     let gas = "field = \"stagnation-jet\"\nspeed = 2\nheight = 0.03\ndensity = 1.2\nviscosity = 1.8e-5\n\
@@ -421,9 +424,8 @@ fn rig(count: u32, temperature: f64, seed: u32) -> String {
          diameter = {{ distribution = \"normal\", mean = 80e-6, deviation = 15e-6, min = 50e-6, max = 110e-6 }}\n\
          temperature = {temperature}\ndensity = 1000"
     );
-    let more = "[[exits]]\nname = \"aside\"\nshape = \"pipe\"\nradius = 0.03\nzone = [-1, 1]\n\
-                [[model.effects]]\nkind = \"melting-transition\"\ntemperature = 360.1\nwidth = 6.96\n";
-    plane(gas, &particles, &format!("seed = {seed}\nhit_limit = 20"), more)
+    let aside = "[[exits]]\nname = \"aside\"\nshape = \"pipe\"\nradius = 0.03\nzone = [-1, 1]\n";
+    plane(gas, &particles, &format!("seed = {seed}\nhit_limit = 20"), &[aside, MELTING].concat())
 }
 
 #[test]
@@ -453,7 +455,8 @@ fn what_goes_in_is_what_ends_somewhere() {
 #[test]
 fn erosion_sums_over_the_hits() {
     let text = rig(100, 300.0, 5) + "[model.erosion]\nlaw = \"finnie\"\nflow_stress = 2e9\n";
-    let (trajectories, runs) = trajectories(&mut case(&text));
+    let mut case = case(&text);
+    let (trajectories, runs) = trajectories(&mut case);
     let volume = |hit: &Hit| {
         let (angle, energy) = (hit.impact.angle_from_surface(), hit.mass * hit.impact.speed().powi(2));
         let sine = angle.sin();
@@ -466,6 +469,15 @@ fn erosion_sums_over_the_hits() {
     let expected: f64 = trajectories.iter().flat_map(|trajectory| &trajectory.hits).map(volume).sum();
     assert!(expected > 0.0);
     near(runs[0].totals.walls[0].1.eroded.unwrap(), expected, 1e-9);
+    // Its map has them all, each where it was.
+    let maps = runs[0].results(&case).maps;
+    let map = maps.iter().find(|map| map.quantity == MapQuantity::Eroded).unwrap();
+    near(map.places.iter().map(|(_, volume)| volume).sum(), expected, 1e-9);
+    let mut hits = trajectories.iter().flat_map(|trajectory| &trajectory.hits);
+    assert!(map.places.iter().all(|([a, b], _)| {
+        let place = hits.next().unwrap().position;
+        (a.hypot(*b) - place.x.hypot(place.y)).abs() < 1e-12
+    }));
 }
 
 /// First hits stick with the logistic probability of the effect: the count is binomial.
@@ -1167,6 +1179,29 @@ fn a_gas_need_not_be_known_at_a_temperature_that_is_swept() {
 
 fn nearwall(folder: &Path, arguments: &[&str]) -> std::process::Output {
     Command::new(env!("CARGO_BIN_EXE_nearwall")).current_dir(folder).args(arguments).output().unwrap()
+}
+
+/// 22 % SiO2, a slip for 52 %, leave a sheet of 69 %.
+#[test]
+fn a_sheet_that_leaves_much_out_is_said_with_the_results() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let model = "[particle]\nmaterial = \"own\"\n[materials.own]\nyield_strength = 1e9\nsurface_energy = 0.4\n\
+                 composition = { SiO2 = 22, Al2O3 = 25, Fe2O3 = 8, CaO = 8, MgO = 3, K2O = 3 }\n\
+                 [walls.default]\nmaterial = \"stainless-steel\"\n[normal]\nmodel = \"constant\"\ne_n = 0.5\n\
+                 [tangential]\nmodel = \"constant\"\ne_t = 0.5\n[capture]\nmodel = \"fusion\"\n";
+    write("m.toml", model);
+    write("case.toml", &rig(40, 300.0, 1).replace(MODEL, "model = \"m.toml\"\n").replace(MELTING, ""));
+    write("i.csv", "v_n\n1\n");
+    let said = "the composition of own adds up to 69.0 wt%";
+    for command in ["check m.toml", "predict i.csv --model m.toml", "simulate case.toml -o out"] {
+        let done = nearwall(folder.path(), &command.split(' ').collect::<Vec<_>>());
+        let [text, notes] = [&done.stdout, &done.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+        assert_eq!(done.status.code(), Some(0), "{notes}");
+        assert_eq!((text + notes).matches(said).count(), 1, "{command}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert_eq!(page.matches(said).count(), 1);
 }
 
 #[test]

@@ -361,8 +361,7 @@ fn a_sheet_that_leaves_much_out_is_said() {
     let notes = |silica: f64| -> Vec<String> {
         let rest = "Al2O3 = 25, Fe2O3 = 8, CaO = 8, MgO = 3, K2O = 3";
         let sheet = format!("composition = {{ SiO2 = {silica}, {rest} }}");
-        let lines = model("model = \"fusion\"", &sheet).describe();
-        lines.into_iter().filter(|line| line.0 == "note").map(|line| line.1).collect()
+        model("model = \"fusion\"", &sheet).notes()
     };
     assert_eq!(notes(52.0), Vec::<String>::new());
     let said = "the composition of own adds up to 69.0 wt% and is taken as 100; check the sheet";

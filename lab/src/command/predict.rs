@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     if let Some(line) = arguments.explain {
         return explain(&predictor, &mut reader, line);
     }
-    super::note(file_notes(&file, &reader));
+    super::note(model.notes().into_iter().chain(file_notes(&file, &reader)));
     if let Some(folder) = &arguments.draws {
         predictor.read_draws(folder)?;
     }
@@ -267,8 +267,9 @@ fn explain(predictor: &Predictor<'_>, reader: &mut ImpactReader<impl Read>, line
                     speeds.yielding,
                     speeds.sticking
                 );
-                for (what, estimate) in model.estimates() {
-                    text += &format!("{what}: {estimate}\n");
+                let notes = model.notes().into_iter().map(|note| ("note", note));
+                for (what, words) in model.estimates().into_iter().chain(notes) {
+                    text += &format!("{what}: {words}\n");
                 }
                 for reason in &predicted.beyond {
                     text += &format!("outside its range: {reason}\n");

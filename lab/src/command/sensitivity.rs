@@ -52,8 +52,11 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let at_case = |error: crate::rig::PredictionError| format!("{}: {error}", arguments.case.display());
     let case = case.map_err(at_case)?;
     let bar = progress::count(case.count() as u64, "numbers");
-    let found = case.run(&|| bar.inc(1)).map_err(at_case)?;
+    let mut found = case.run(&|| bar.inc(1)).map_err(at_case)?;
     bar.finish_and_clear();
+    if !arguments.set.is_empty() {
+        found.notes.insert(0, format!("changed by --set: {}", arguments.set.join(", ")));
+    }
     let beside = || {
         let name = arguments.case.file_stem().unwrap_or_default().to_string_lossy();
         Path::new(&format!("{name}-sensitivity")).to_owned()

@@ -123,8 +123,11 @@ fn figure(found: &Sensitivity, wall: usize) -> Option<Figure> {
     };
     let rows = numbers.into_iter().take(SHOWN_NUMBERS).filter_map(row).collect();
     let title = format!("Captured at {}", base.wall);
-    let caption = "Share of the injected mass; the numbers that change it most, the largest change first.";
-    let texts = [&format!("sensitivity-{wall}"), &title, caption, "captured [% of the injected mass]"];
+    let caption = format!(
+        "Share of the injected mass, of {} particles; the numbers that change it most, the largest change first.",
+        found.particles
+    );
+    let texts = [&format!("sensitivity-{wall}"), &title, &caption, "captured [% of the injected mass]"];
     tornado(texts, 100.0 * base.captured, rows)
 }
 

@@ -171,17 +171,42 @@ pub struct RecordedArrivals {
     pub whole_run: Amount,
 }
 
-/// Captured mass on the unrolled surface of a wall.
+/// What hits leave on a wall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MapQuantity {
+    /// The mass of captured particles [kg].
+    Captured,
+    /// The volume of wall that hits removed [m³].
+    Eroded,
+}
+
+/// What hits left on the unrolled surface of a wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WallMap {
+    /// What they left.
+    pub quantity: MapQuantity,
     /// Name of the wall.
     pub wall: String,
     /// Labels of the two axes, with units.
     pub axes: [&'static str; 2],
     /// Ends of both axes [m].
     pub ranges: [[f64; 2]; 2],
-    /// Place [m] and mass [kg] of each capture.
+    /// Place [m] of each hit that left something, and how much.
     pub places: Vec<([f64; 2], f64)>,
+}
+
+impl WallMap {
+    /// Whether a place [m] is on the map.
+    pub fn shows(&self, place: &[f64; 2]) -> bool {
+        self.ranges.iter().zip(place).all(|([low, high], value)| (low..=high).contains(&value))
+    }
+
+    /// Number of the hits that are not on the map, and their share of all that hits left [1].
+    pub fn outside(&self) -> (usize, f64) {
+        let outside = || self.places.iter().filter(|(place, _)| !self.shows(place));
+        let all: f64 = self.places.iter().map(|(_, amount)| amount).sum();
+        (outside().count(), share(outside().map(|(_, amount)| amount).sum(), all))
+    }
 }
 
 /// Pipes about the z axis, along which captures are drawn.

@@ -130,6 +130,11 @@ impl CaseText {
         text.with_model(model)
     }
 
+    /// Whether the case file has a `[sweep]`, which is left out here.
+    pub fn has_sweep(&self) -> bool {
+        self.original.contains_key("sweep")
+    }
+
     /// The case with another model file.
     ///
     /// # Errors

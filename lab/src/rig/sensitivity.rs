@@ -289,6 +289,8 @@ pub struct SensitivityCase {
     document: DocumentMut,
     numbers: Vec<Number>,
     notes: Vec<String>,
+    /// Number of particles that the case states.
+    stated: u64,
 }
 
 impl SensitivityCase {
@@ -303,14 +305,17 @@ impl SensitivityCase {
             notes.push("walls without a memory".to_owned());
         }
         add_materials(&mut document);
+        if text.has_sweep() {
+            notes.push("the [sweep] is left out: each number is that of the case or of --set".to_owned());
+        }
         let base = text.read(&document)?;
-        let total = base.count();
-        if total > particles {
+        let stated = base.count();
+        if stated > particles {
             for place in injections(&document) {
                 if let Some(count) = item_mut(&mut document, &place).and_then(|item| item.get_mut("count"))
                     && let Some(own) = count.as_integer()
                 {
-                    let share = (own as f64 * particles as f64 / total as f64).ceil().max(1.0);
+                    let share = (own as f64 * particles as f64 / stated as f64).ceil().max(1.0);
                     *count = toml_edit::value(share as i64);
                 }
             }
@@ -319,7 +324,7 @@ impl SensitivityCase {
             notes.push("numbers in the model files of single [[particles]] were not moved".to_owned());
         }
         let numbers = numbers(&document);
-        Ok(Self { text, document, numbers, notes })
+        Ok(Self { text, document, numbers, notes, stated })
     }
 
     /// How many numbers are moved.
@@ -339,6 +344,7 @@ impl SensitivityCase {
             None => run_captures(&case)?,
         };
         let mut notes = std::mem::take(&mut self.notes);
+        notes.extend(self.fewer_particles(case.count()));
         notes.extend(
             base.trouble.iter().map(|trouble| format!("not every particle could be used: {trouble}")),
         );
@@ -358,6 +364,17 @@ impl SensitivityCase {
             deposit: case.deposit.is_some(),
             numbers: found,
             notes,
+        })
+    }
+
+    /// Why the captures of the unchanged case are not those of its report, where fewer particles are followed.
+    fn fewer_particles(&self, followed: u64) -> Option<String> {
+        (followed < self.stated).then(|| {
+            format!(
+                "{followed} of the case's {} particles are followed, so that what it captures unchanged may differ \
+                 from `nearwall simulate`; --particles {} follows all",
+                self.stated, self.stated
+            )
         })
     }
 

@@ -129,6 +129,11 @@ impl Case {
         self.injections.iter().any(|injection| injection.model.is_some())
     }
 
+    /// Whether any particle starts with carbon.
+    pub fn has_carbon(&self) -> bool {
+        self.injections.iter().any(Injection::has_carbon)
+    }
+
     fn read(top: &Section<'_>, folder: &Path) -> Result<Self, InputError> {
         let title = top.text("title")?.unwrap_or_else(|| "Standalone case".to_owned());
         let about = top.text("about")?;

@@ -218,6 +218,11 @@ impl Injection {
         (diameter, state(&position, &velocity, temperature, conversion))
     }
 
+    /// Whether any of its particles starts with carbon.
+    pub(super) fn has_carbon(&self) -> bool {
+        self.conversion.quantile(0.0) < 1.0
+    }
+
     /// The middle of the place from which its particles come [m].
     pub(crate) fn release(&self) -> Vector3<f64> {
         match self.place {

@@ -65,7 +65,7 @@ pub(super) fn hit_regimes(comparison: &RunComparison<'_>) -> Vec<Figure> {
     bars.map(|bars| bars.figure("hit-regimes", REGIME_NAMES)).into_iter().collect()
 }
 
-/// Stacked bars of the regimes at each wall as a percentage of `whole`; `None` when all are empty.
+/// Stacked bars of the regimes that occur at any wall as a percentage of `whole`; `None` when none does.
 fn stacked(
     comparison: &RunComparison<'_>,
     run: &RunResults,
@@ -80,8 +80,10 @@ fn stacked(
             totals.map_or(0.0, |totals| 100.0 * share(of(totals, regime), whole(totals)))
         };
         let parts: Vec<f64> = comparison.walls.iter().map(part).collect();
-        any |= parts.iter().any(|part| *part > 0.0);
-        bars = bars.coloured(regime.name(), regime_colour(regime), &parts);
+        if parts.iter().any(|part| *part > 0.0) {
+            bars = bars.coloured(regime.name(), regime_colour(regime), &parts);
+            any = true;
+        }
     }
     any.then_some(bars)
 }
@@ -165,7 +167,10 @@ pub(super) fn table(comparison: &RunComparison<'_>) -> Option<Table> {
             ("captured / injected mass", |c, run, wall| {
                 Some(percent(share(run.captured(wall, c.time)?.mass(), c.injected(run))))
             }),
-            ("conversion at capture", |c, run, wall| Some(spread(&c.totals(run, wall)?.captured_conversion))),
+            ("conversion at capture", |c, run, wall| {
+                let conversion = &c.totals(run, wall)?.captured_conversion;
+                (run.has_carbon || conversion.mean < 1.0).then(|| spread(conversion))
+            }),
         ],
     )
 }

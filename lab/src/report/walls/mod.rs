@@ -26,7 +26,7 @@ use crate::rig::{Band, CaptureBand};
 use crate::simulate::Case;
 
 /// The sections of a page before and after the maps of the deposit: heading, figures, and the table under them.
-const SECTIONS: [PageSection; 8] = [
+const SECTIONS: [PageSection; 9] = [
     (
         "Where material is captured",
         &[captured::by_wall, captured::regimes, captured::hit_regimes, places::along, captured::history],
@@ -37,7 +37,8 @@ const SECTIONS: [PageSection; 8] = [
     ("What arrives at the walls", &[arriving::figures], arriving::table),
     ("How particles rebound", &[rebound::normal, rebound::tangential], rebound::table),
     ("How densely particles linger at the walls", &[near_wall::figures], near_wall::table),
-    ("Where captured particles lie", &[places::maps, places::scatter], nothing),
+    ("Where captured particles lie", &[places::captured_maps, places::scatter], nothing),
+    ("Where walls are eroded", &[places::eroded_maps], nothing),
     ("What lies on the walls over time", &[deposit::figures], nothing),
 ];
 const LAST_SECTIONS: [PageSection; 2] =
@@ -100,7 +101,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
             parameters. The bands contain neither the uncertainty of other numbers nor the scatter of single runs.");
         page.table(table);
     }
-    add_method(&mut page, case);
+    add_method(&mut page, case, runs.iter().any(|run| run.totals.has_carbon));
     if left_out > 0 {
         page.note(format!(
             "impacts.csv contains all hits of the first particles (of each value of a sweep), at most {} rows; \
@@ -113,7 +114,7 @@ pub fn standalone_page(case: &Case, runs: &[Run], left_out: u64) -> Result<Strin
 }
 
 /// What moves the particles, and how a deposit grows.
-fn add_method(page: &mut Page, case: &Case) {
+fn add_method(page: &mut Page, case: &Case, has_carbon: bool) {
     page.heading("How this was computed");
     let gas = &case.gas;
     let also = [
@@ -123,17 +124,23 @@ fn add_method(page: &mut Page, case: &Case) {
     ];
     let also: String = also.iter().filter(|(is_there, _)| *is_there).map(|(_, what)| *what).collect();
     let without = if gas.turbulence.is_some() { "" } else { " There is no turbulence." };
+    let (before, after) =
+        if has_carbon { ("", ", and the stated law of carbon conversion") } else { ("and ", "") };
     page.text(format!(
         "Particles move alone in a prescribed, steady gas that they do not act on: drag of Schiller and Naumann, \
-            weight{also}, convective heat of Ranz and Marshall, and the stated law of carbon conversion.{without} A \
-            particle touches a wall with its surface, half a diameter from its centre. The impact model decides each \
-            hit; its random draw depends only on seed, particle and hit number."
+            weight{also}, {before}convective heat of Ranz and Marshall{after}.{without} A particle touches a wall \
+            with its surface, half a diameter from its centre. The impact model decides each hit; its random draw \
+            depends only on seed, particle and hit number."
     ));
     if let Some(deposit) = &case.deposit {
+        let burnt = if has_carbon {
+            ", and the carbon in the powder burns by the law of the case at the temperature of the wall"
+        } else {
+            ""
+        };
         page.text(format!(
             "Particles are released evenly over {}. In each of {} steps they meet the walls as they were at its \
-                beginning; at its end the captured ones are added, and the carbon in the powder burns by the law of \
-                the case at the temperature of the wall. deposit.csv has every wall, bin and time.",
+                beginning; at its end the captured ones are added{burnt}. deposit.csv has every wall, bin and time.",
             duration(deposit.duration),
             deposit.steps
         ));

@@ -4,8 +4,8 @@ use super::captured::heights;
 use super::{RunComparison, identifier};
 use crate::report::chart::{ColourScale, PlanePicture, regime_colour};
 use crate::report::format::REGIME_NAMES;
-use crate::report::{Chart, Figure, round_edges};
-use crate::results::{Capture, Grid, RunResults, WallMap, range, share};
+use crate::report::{Chart, Figure, percent, round_edges};
+use crate::results::{Capture, Grid, MapQuantity, RunResults, WallMap, range, share};
 use nearwall::impact::Regime;
 
 /// Bins along the axis.
@@ -15,7 +15,7 @@ const POINTS: usize = 300;
 /// Columns and rows of such a map, the size of its plot, and the width of the drawing [px].
 const MAP_CELLS: [usize; 2] = [48, 32];
 const MAP_SIZE: [f64; 2] = [330.0, 230.0];
-const CAPTURE_MAP_WIDTH: f64 = 480.0;
+const MAP_WIDTH: f64 = 480.0;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Captured mass along the main axis: by regime along the pipes of a standalone case, else one series for each run.
@@ -92,32 +92,93 @@ fn fate(label: &str, run: &RunResults) -> Option<String> {
 }
 
 /// Captures on each wall that can be unrolled.
-pub(super) fn maps(comparison: &RunComparison<'_>) -> Vec<Figure> {
-    comparison.runs.iter().flat_map(map_figures).collect()
+pub(super) fn captured_maps(comparison: &RunComparison<'_>) -> Vec<Figure> {
+    maps(comparison, MapQuantity::Captured)
 }
 
-pub(super) fn map_figures(run: &RunResults) -> Vec<Figure> {
-    run.maps.iter().map(map_figure).collect()
+/// Erosion of each wall that can be unrolled.
+pub(super) fn eroded_maps(comparison: &RunComparison<'_>) -> Vec<Figure> {
+    maps(comparison, MapQuantity::Eroded)
 }
+
+fn maps(comparison: &RunComparison<'_>, quantity: MapQuantity) -> Vec<Figure> {
+    let figures = |run| map_figures(run, quantity, &comparison.few);
+    comparison.runs.iter().flat_map(figures).collect()
+}
+
+/// The maps of a quantity on all walls but some.
+pub(super) fn map_figures(run: &RunResults, quantity: MapQuantity, left_out: &[String]) -> Vec<Figure> {
+    let wanted = |map: &&WallMap| map.quantity == quantity && !left_out.contains(&map.wall);
+    run.maps.iter().filter(wanted).map(map_figure).collect()
+}
+
+/// How a map names what it shows.
+struct MapWords {
+    /// Begin of the id.
+    id: &'static str,
+    title: &'static str,
+    /// The quantity of a cell, its unit, and what it is in a sentence.
+    value: &'static str,
+    unit: &'static str,
+    sentence: &'static str,
+    /// What has a place and how much it leaves.
+    hits: &'static str,
+    amount: &'static str,
+}
+
+const CAPTURED: MapWords = MapWords {
+    id: "map",
+    title: "Capture on",
+    value: "captured mass",
+    unit: "kg/m²",
+    sentence: "Mass captured per area of wall during the run.",
+    hits: "captured particles",
+    amount: "mass",
+};
+const ERODED: MapWords = MapWords {
+    id: "erosion",
+    title: "Erosion on",
+    value: "eroded depth",
+    unit: "m",
+    sentence: "Volume that hits removed per area of wall during the run.",
+    hits: "hits that erode",
+    amount: "volume",
+};
 
 fn map_figure(map: &WallMap) -> Figure {
-    let title = format!("Capture on {}", map.wall);
-    let id = format!("map-{}", identifier(&map.wall));
+    let words = match map.quantity {
+        MapQuantity::Captured => CAPTURED,
+        MapQuantity::Eroded => ERODED,
+    };
+    let title = format!("{} {}", words.title, map.wall);
+    let id = format!("{}-{}", words.id, identifier(&map.wall));
+    let outside = outside(map, &words);
     if map.places.len() < POINTS {
-        let points: Vec<[f64; 2]> = map.places.iter().map(|(place, _)| *place).collect();
+        let places = map.places.iter().map(|(place, _)| *place);
+        let points: Vec<[f64; 2]> = places.filter(|place| map.shows(place)).collect();
         let chart = Chart::new(&title, map.axes[0], map.axes[1]).points("", &points);
-        return chart.figure(&id, "One point for each captured particle.");
+        return chart.figure(&id, &format!("One point for each of the {}.{outside}", words.hits));
     }
     let cells = Grid::new(map.ranges, MAP_CELLS).densities(&map.places);
     let scale = ColourScale::new(0.0, range(cells.iter().map(|cell| cell.value))[1]);
     let fills: Vec<String> = cells.iter().map(|cell| scale.colour(cell.value)).collect();
-    let title = format!("{title}: captured mass [kg/m²]");
+    let title = format!("{title}: {} [{}]", words.value, words.unit);
     let mut picture = PlanePicture::new([&id, &title], map.ranges, MAP_SIZE);
     picture.cells(&cells, &fills);
     picture.axes(map.axes, true);
-    picture.bar(&scale, "kg/m²", 0, MAP_SIZE[1]);
-    let size = [CAPTURE_MAP_WIDTH, picture.below()[1]];
-    picture.figure("Mass captured per area of wall during the run.", size, CAPTURE_MAP_WIDTH)
+    picture.bar(&scale, words.unit, 0, MAP_SIZE[1]);
+    let size = [MAP_WIDTH, picture.below()[1]];
+    picture.figure(&format!("{}{outside}", words.sentence), size, MAP_WIDTH)
+}
+
+/// How much is not on a map, in a sentence; nothing where all is.
+fn outside(map: &WallMap, words: &MapWords) -> String {
+    let (count, part) = map.outside();
+    if count == 0 {
+        return String::new();
+    }
+    let (all, part) = (map.places.len(), percent(part));
+    format!(" Outside of the map: {count} of {all} {}, with {part} of the {}.", words.hits, words.amount)
 }
 
 /// Captured parcels along the main axis and around it or, where the wall is not round, from the side. All cases have

@@ -6,7 +6,7 @@ use crate::report::format::with_deviation;
 use crate::report::page::TableColumn;
 use crate::report::{Chart, Figure, Page, Table};
 use crate::results::standalone::{Doubts, Run, RunTotals};
-use crate::results::{Moments, WallTotals, share, wilson};
+use crate::results::{MapQuantity, Moments, WallTotals, share, wilson};
 use crate::rig::Band;
 use crate::simulate::{Case, Sweep, sweep_unit};
 
@@ -69,10 +69,23 @@ pub(super) fn add_to(page: &mut Page, case: &Case, sweep: &Sweep, runs: &[Run]) 
         page.heading("Outside of stated ranges");
         doubts.into_iter().for_each(|line| page.note(format!("{line}.")));
     }
-    let most = runs.iter().max_by_key(|run| run.totals.ends.captured.count);
-    if let Some(run) = most.filter(|run| run.totals.ends.captured.count > 0) {
-        page.heading(format!("Where particles are captured at {}", axis.at(run)));
-        page.figures(map_figures(&run.results(case)));
+    for (quantity, heading) in [
+        (MapQuantity::Captured, "Where particles are captured"),
+        (MapQuantity::Eroded, "Where walls are eroded"),
+    ] {
+        let most = runs.iter().max_by(|a, b| left(a, quantity).total_cmp(&left(b, quantity)));
+        if let Some(run) = most.filter(|run| left(run, quantity) > 0.0) {
+            page.heading(format!("{heading} at {}", axis.at(run)));
+            page.figures(map_figures(&run.results(case), quantity, &[]));
+        }
+    }
+}
+
+/// What a run leaves on its walls: the number of captured particles, or the eroded volume [m³].
+fn left(run: &Run, quantity: MapQuantity) -> f64 {
+    match quantity {
+        MapQuantity::Captured => run.totals.ends.captured.count as f64,
+        MapQuantity::Eroded => run.totals.walls.iter().filter_map(|(_, wall)| wall.eroded).sum(),
     }
 }
 
@@ -92,14 +105,15 @@ fn capture(axis: &SweepAxis, sweep: &Sweep, runs: &[Run]) -> Figure {
         errors.push((part - low, high - part));
         every.push([axis.value(run), 100.0 * captured_mass(&run.totals)]);
     }
-    let chart = Chart::new("Capture", &axis.label(), "captured [%]");
+    let chart = Chart::new("Capture", &axis.label(), "captured share [%]");
     let chart = with_band(chart, axis, runs);
     let chart = with_references(chart, axis, sweep, "capture", 100.0)
-        .points_with_errors("first hits", &first, &errors)
-        .line("of the mass, in the end", &every);
+        .points_with_errors("share of the number of first hits", &first, &errors)
+        .line("share of the injected mass, in the end", &every);
     chart.y_range(0.0, 100.0).figure(
         "sweep-capture",
-        "Captured share of first hits, with its 95 % interval, and captured share of all mass at the end.",
+        "Points: how many of all first hits end in capture, with the 95 % interval. Line: the captured part of the \
+            injected mass in the end, which large particles dominate and to which later hits add.",
     )
 }
 
@@ -182,7 +196,7 @@ fn table(axis: &SweepAxis, runs: &[Run]) -> Table {
         ("first hits", &|run| run.totals.first_hits()[0].to_string()),
         ("captured", &|run| run.totals.first_hits()[1].to_string()),
         ("captured at first hit (95 %)", &first),
-        ("captured at the end", &|run| percent(captured_mass(&run.totals))),
+        ("mass captured in the end", &|run| percent(captured_mass(&run.totals))),
         ("e_n of first hits, captured = 0", &|run| mean(run, |wall| &wall.first_e_n)),
         ("e_n of rebounds, all hits", &|run| mean(run, |wall| &wall.e_n)),
         ("resultant impact speed, all hits [m/s]", &|run| mean(run, |wall| &wall.speed)),

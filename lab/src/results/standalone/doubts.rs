@@ -1,9 +1,11 @@
 //! What the results of standalone cases are not good for.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use crate::range::{RangeCounts, RangeReader};
 use crate::simulate::{Case, SurfaceKind, Trajectory};
+use nearwall::Model;
 
 /// Reasons to doubt the results of one run or of several, and how many particles or hits they concern.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -18,11 +20,14 @@ pub struct Doubts {
     without_gradient: u64,
     /// Why the gas would hardly flow as the case says.
     flow: Option<String>,
+    /// What in the models is probably a mistake.
+    models: BTreeSet<String>,
 }
 
 impl Doubts {
     pub(super) fn new(case: &Case) -> Self {
-        Self { flow: case.gas.doubt(), ..Self::default() }
+        let models = case.injections.iter().map(|injection| case.model_of(injection));
+        Self { flow: case.gas.doubt(), models: models.flat_map(Model::notes).collect(), ..Self::default() }
     }
 
     /// Counts a particle.
@@ -65,6 +70,7 @@ impl Doubts {
             too_seldom: self.too_seldom + other.too_seldom,
             without_gradient: self.without_gradient + other.without_gradient,
             flow: self.flow.or(other.flow),
+            models: self.models,
         }
     }
 
@@ -72,7 +78,7 @@ impl Doubts {
     pub fn lines(&self) -> Vec<String> {
         let Self { injected, too_seldom, .. } = self;
         let mut lines = self.ranges.lines("hits");
-        lines.extend(self.flow.clone());
+        lines.extend(self.flow.iter().chain(&self.models).cloned());
         if *too_seldom > 0 {
             lines.push(format!(
                 "{too_seldom} of {injected} particles have relaxation times of 0.3 to 4 in wall units: turbulence \

@@ -3,8 +3,8 @@
 use super::doubts::Doubts;
 use super::summary::over;
 use crate::results::{
-    Amount, BalanceLine, CONVERSION_BINS, Capture, History, Mass, NearWall, PipeZones, RunResults, WallMap,
-    WallModel, WallTotals, bin,
+    Amount, BalanceLine, CONVERSION_BINS, Capture, History, MapQuantity, Mass, NearWall, PipeZones,
+    RunResults, WallMap, WallModel, WallTotals, bin,
 };
 use crate::simulate::{Case, Fate, Hit, StayTime, SurfaceKind, SurfaceShape, Trajectory};
 
@@ -12,6 +12,12 @@ use crate::simulate::{Case, Fate, Hit, StayTime, SurfaceKind, SurfaceShape, Traj
 const RESTITUTION_BINS: usize = 60;
 /// Width of a bin [1].
 pub const RESTITUTION_STEP: f64 = 0.025;
+/// Share of the hits at each of the four sides of a map, or one hit, that are left out where they would lengthen the
+/// axis by more than this part of what the others need [1].
+const FAR_SHARE: f64 = 0.0025;
+const FAR_REACH: f64 = 0.15;
+/// To either side of a map's middle where all hits are at one place [m].
+const LEAST_RANGE: f64 = 1e-9;
 
 impl WallTotals {
     /// A wall without a hit, with every statistic that a standalone case has.
@@ -145,7 +151,9 @@ pub struct RunTotals {
     pub exits: Vec<(usize, Amount)>,
     /// Every capture, in the order of the particles.
     pub captures: Vec<Capture>,
-    /// Whether a captured particle had carbon left.
+    /// Every hit that removed something: number of the wall, place [m] and volume [m³].
+    pub erosion: Vec<(usize, [f64; 3], f64)>,
+    /// Whether the particles start with carbon.
     pub has_carbon: bool,
     /// What the results are not good for.
     pub doubts: Doubts,
@@ -154,7 +162,8 @@ pub struct RunTotals {
 impl RunTotals {
     pub(super) fn new(case: &Case) -> Self {
         let injections = vec![ParticleEnds::default(); case.injections.len()];
-        let mut totals = Self { injections, doubts: Doubts::new(case), ..Self::default() };
+        let (has_carbon, doubts) = (case.has_carbon(), Doubts::new(case));
+        let mut totals = Self { injections, has_carbon, doubts, ..Self::default() };
         for (index, surface) in case.surfaces.iter().enumerate() {
             match surface.kind {
                 SurfaceKind::Wall { .. } => {
@@ -172,8 +181,11 @@ impl RunTotals {
         self.ends.add(trajectory);
         self.injections[trajectory.injection].add(trajectory);
         for (number, hit) in trajectory.hits.iter().enumerate() {
-            if let Some((_, wall)) = self.walls.iter_mut().find(|(surface, _)| *surface == hit.surface) {
-                wall.add(hit, number == 0);
+            let wall = self.walls.iter().position(|(surface, _)| *surface == hit.surface);
+            if let Some(wall) = wall {
+                self.walls[wall].1.add(hit, number == 0);
+                let erodes = (hit.eroded > 0.0).then(|| (wall, hit.position.into(), hit.eroded));
+                self.erosion.extend(erodes);
             }
         }
         for (surface, wall) in &mut self.walls {
@@ -183,7 +195,6 @@ impl RunTotals {
         }
         match &trajectory.fate {
             Fate::Stuck(surface) => {
-                self.has_carbon |= trajectory.conversion < 1.0;
                 if let Some(hit) = trajectory.hits.last() {
                     self.captures.push(Capture {
                         wall: self.walls.iter().position(|(index, _)| index == surface),
@@ -283,15 +294,31 @@ impl RunTotals {
     }
 
     fn maps(&self, case: &Case) -> Vec<WallMap> {
-        let map = |(number, (index, _)): (usize, &(usize, WallTotals))| {
-            let surface = &case.surfaces[*index];
-            let own = self.captures.iter().filter(|capture| capture.wall == Some(number));
-            let places: Vec<([f64; 2], f64)> =
-                own.map(|capture| (surface.shape.unrolled(&capture.position.into()), capture.mass)).collect();
-            let ranges = map_ranges(&surface.shape, &places);
-            WallMap { wall: surface.name.clone(), axes: surface.shape.axes(), ranges, places }
-        };
-        self.walls.iter().enumerate().map(map).filter(|map| !map.places.is_empty()).collect()
+        let captured = self.captures.iter().filter_map(|c| Some((c.wall?, c.position, c.mass)));
+        let captured = self.maps_of(case, MapQuantity::Captured, captured);
+        let eroded = self.maps_of(case, MapQuantity::Eroded, self.erosion.iter().copied());
+        captured.into_iter().chain(eroded).collect()
+    }
+
+    /// A map for each wall on which anything was left: by index of the wall, place [m] and amount.
+    fn maps_of(
+        &self,
+        case: &Case,
+        quantity: MapQuantity,
+        left: impl Iterator<Item = (usize, [f64; 3], f64)>,
+    ) -> Vec<WallMap> {
+        let mut places = vec![Vec::new(); self.walls.len()];
+        let shape = |wall: usize| &case.surfaces[self.walls[wall].0].shape;
+        left.for_each(|(wall, place, amount)| {
+            places[wall].push((shape(wall).unrolled(&place.into()), amount));
+        });
+        let surfaces = self.walls.iter().map(|(index, _)| &case.surfaces[*index]);
+        let with_any = surfaces.zip(places).filter(|(_, places)| !places.is_empty());
+        let maps = with_any.map(|(surface, places)| {
+            let (axes, ranges) = (surface.shape.axes(), map_ranges(&surface.shape, &places));
+            WallMap { quantity, wall: surface.name.clone(), axes, ranges, places }
+        });
+        maps.collect()
     }
 
     fn pipe(&self, case: &Case) -> Option<PipeZones> {
@@ -309,16 +336,64 @@ impl RunTotals {
     }
 }
 
-/// The part of a wall that its map shows: all of a pipe, the hit part of a plane [m].
+/// The part of a wall that its map shows [m]: all of a pipe, the hit part of a plane without a few hits far away.
 fn map_ranges(shape: &SurfaceShape, places: &[([f64; 2], f64)]) -> [[f64; 2]; 2] {
     if let SurfaceShape::Pipe { radius, zone } = shape {
         let half = std::f64::consts::PI * radius;
         return [*zone, [-half, half]];
     }
-    // The outermost hundredth would stretch the map over empty wall.
-    let mut reach: Vec<f64> = places.iter().map(|([a, b], _)| a.abs().max(b.abs())).collect();
-    reach.sort_by(f64::total_cmp);
-    let outer = reach.get((reach.len() * 99 / 100).min(reach.len().saturating_sub(1)));
-    let half = outer.map_or(1e-9, |reach| reach.max(1e-9));
-    [[-half, half]; 2]
+    [0, 1].map(|axis| near_range(places.iter().map(|(place, _)| place[axis]).collect()))
+}
+
+/// The ends of some values without those that are far out.
+fn near_range(mut values: Vec<f64>) -> [f64; 2] {
+    values.sort_by(f64::total_cmp);
+    let ends = |out: usize| Some([*values.get(out)?, *values.get(values.len().checked_sub(out + 1)?)?]);
+    let [first, last] = ends(0).unwrap_or_default();
+    let out = ((FAR_SHARE * values.len() as f64) as usize).max(1);
+    let [low, high] = ends(out).filter(|[low, high]| low < high).unwrap_or([first, last]);
+    let reach = FAR_REACH * (high - low);
+    let low = if low - first <= reach { first } else { low };
+    let high = if last - high <= reach { last } else { high };
+    if low < high { [low, high] } else { [low - LEAST_RANGE, low + LEAST_RANGE] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square of 1 m about 7 m away, in steps of a tenth.
+    fn square() -> Vec<([f64; 2], f64)> {
+        let step = |number: usize| 0.1 * number as f64;
+        (0..121).map(|place| ([7.0 + step(place % 11), step(place / 11) - 0.5], 1.0)).collect()
+    }
+
+    fn shown(places: &[([f64; 2], f64)]) -> [[f64; 2]; 2] {
+        let normal = nalgebra::Vector3::z();
+        map_ranges(&SurfaceShape::Plane { point: nalgebra::Vector3::zeros(), normal, radius: None }, places)
+    }
+
+    #[test]
+    fn a_map_shows_the_hit_part_of_a_plane() {
+        let near = |found: [[f64; 2]; 2]| {
+            let wanted = [[7.0, 8.0], [-0.5, 0.5]];
+            let pairs = found.as_flattened().iter().zip(wanted.as_flattened());
+            pairs.map(|(found, wanted)| (found - wanted).abs()).fold(0.0, f64::max)
+        };
+        assert!(near(shown(&square())) < 1e-12, "{:?}", shown(&square()));
+        let mut with_far = square();
+        with_far.push(([7.5, 1000.0], 1.0));
+        assert!(near(shown(&with_far)) < 1e-12, "{:?}", shown(&with_far));
+        let quantity = MapQuantity::Captured;
+        let (wall, axes, ranges) = (String::new(), [""; 2], shown(&with_far));
+        let map = WallMap { quantity, wall, axes, ranges, places: with_far };
+        assert_eq!(map.outside(), (1, 1.0 / 122.0));
+        // All of a strip, without two that lie far out; one place; none.
+        let mut strip: Vec<_> = (0..1000).map(|place| ([f64::from(place), 0.0], 1.0)).collect();
+        strip.extend([([1e6, 0.0], 1.0), ([2e6, 0.0], 1.0)]);
+        assert_eq!(shown(&strip)[0], [0.0, 999.0]);
+        for places in [&strip[..1], &[]] {
+            assert!(shown(places).iter().all(|[low, high]| low < high));
+        }
+    }
 }
