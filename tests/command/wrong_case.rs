@@ -41,6 +41,31 @@ fn a_wrong_gas_speed_is_found_and_the_wall_law_is_not_blamed() {
     assert!(extended.is_ok(), "{extended:?}");
 }
 
+/// Readings that lie above what the case predicts by one standard error each: with the errors of the case they agree
+/// with it, and nobody has a share of a misfit.
+#[test]
+fn nobody_is_blamed_where_the_readings_agree() {
+    let given = |name: &str| text(&Path::new(FOLDER).join(name));
+    let [case, base, data] = ["case.toml", "base.toml", "measured.csv"].map(given);
+    let folder = folder(&[("case.toml", &case), ("base.toml", &base), ("measured.csv", &data)]);
+    let diagnosed = || -> Value {
+        done(folder.path(), &["diagnose", "measured.csv", "--case", "case.toml", "--out", "out"]);
+        serde_json::from_str(&text(&folder.path().join("out/diagnosis.json"))).unwrap()
+    };
+    let mut lines = data.lines();
+    let mut near = lines.next().unwrap().to_owned() + "\n";
+    for (line, reading) in lines.zip(diagnosed()["readings"].as_array().unwrap()) {
+        let cells: Vec<&str> = line.split(',').collect();
+        let (settings, error) = (cells[..4].join(","), cells[5]);
+        let value = reading["base"].as_f64().unwrap() + error.parse::<f64>().unwrap();
+        near += &format!("{settings},{value:.5},{error}\n");
+    }
+    std::fs::write(folder.path().join("measured.csv"), near).unwrap();
+    let found = diagnosed();
+    assert!(found["blame"].as_array().unwrap().is_empty(), "{}", found["blame"]);
+    assert!(!found["verdict"].as_str().unwrap().contains("Shares of the misfit"), "{}", found["verdict"]);
+}
+
 /// A stated error is no part of a simulation, and a mistake beside it is found where it stands.
 #[test]
 fn stated_errors_change_no_simulation() {

@@ -68,7 +68,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Gain:
-    """The gain of the extended model on rows that no fit and no choice used."""
+    """The gain of the extended model on rows that it was not fitted to."""
 
     held_out_rows: int
     observable: str

@@ -1,23 +1,19 @@
-//! A choice among explanations on some rows, and the model file that follows from it.
+//! A choice among explanations on some rows, and what fewer rows would choose.
+
+use std::sync::Arc;
 
 use super::beside_laws::{LawsWithInstrument, instruments_beside_laws};
 use super::candidate::ScoredCandidate;
-use super::constant_capture::ConstantCapture;
 use super::constants::Effort;
-use super::curve::ColumnCurve;
 use super::data_split::DataSplit;
-use super::explanation::Exploration;
-use super::explanations::{Explanations, Told, distinct};
+use super::explanation::{Evidence, Explanation, Exploration};
+use super::explanations::{Explanations, Told};
 use super::ground::{Ground, MoreOutliers, grounds};
 use super::groups::GroupColumn;
-use super::hypothesis::{Hypothesis, ScatterTrend};
 use super::impact_search::{ImpactExplanation, ImpactSearch, evidence};
-use super::interval::set_intervals;
-use super::likelihood::Scatter;
-use super::part::FittedPart;
+use super::named_causes::{FoundParts, NamedCauses};
 use super::record::GroupsFound;
 use super::shared_error::SharedErrors;
-use super::{extend, form_finding};
 
 /// What a choice needs beside the rows.
 #[derive(Clone, Copy)]
@@ -34,8 +30,8 @@ pub(super) struct Task<'a> {
 /// The result of a choice on the fitted rows of a [`DataSplit`].
 #[derive(Clone)]
 pub(super) struct CauseChoice {
-    /// The rows, with the groups' shared errors if they have any.
-    pub data: DataSplit,
+    /// What is named.
+    pub causes: NamedCauses,
     /// What the search visited, the most probable first.
     pub explanations: Explanations<ScoredCandidate>,
     /// The additions that are named, in the order in which they joined.
@@ -46,37 +42,43 @@ pub(super) struct CauseChoice {
     pub shared: SharedErrors,
     /// The outliers of the best explanation, where more than expected fit better.
     pub outliers: Option<MoreOutliers>,
-    /// The parts, curves and scatter of the search.
-    state: FoundParts,
+    /// What was visited, in the order of the explanations.
+    visited: Arc<Visited>,
 }
 
-/// What was found, without the rows.
-#[derive(Clone)]
-struct FoundParts {
-    parts: Vec<FittedPart>,
-    curves: Vec<ColumnCurve>,
-    scatter_trends: Vec<ScatterTrend>,
-    captures: ConstantCapture,
-    scatter: Scatter,
+/// What a search visited.
+struct Visited {
+    all: Vec<Explanation<Kept>>,
+    grounds: Vec<Ground>,
+    evidence: Evidence,
+    /// The independent unit of each row of the search.
+    units: Vec<usize>,
 }
 
-impl FoundParts {
-    /// Those of a hypothesis that are named, and what is no cause.
-    fn of(hypothesis: &Hypothesis<'_>, named: &[String]) -> Self {
-        let data = hypothesis.data;
-        let part = |one: &&FittedPart| named.contains(&one.part.name());
-        let curve = |one: &&ColumnCurve| named.contains(&one.form.key(data));
-        Self {
-            parts: hypothesis.parts.iter().filter(part).cloned().collect(),
-            curves: hypothesis.curves.iter().filter(curve).cloned().collect(),
-            scatter_trends: hypothesis.scatter_trends.clone(),
-            captures: hypothesis.captures,
-            scatter: hypothesis.scatter,
-        }
+/// An explanation that was visited, without its rows.
+struct Kept {
+    /// Index of its ground.
+    ground: usize,
+    found: FoundParts,
+}
+
+impl Visited {
+    /// The explanations on some of the rows, with the parameters of all; their indices instead of what was fitted.
+    fn on(&self, places: &[usize]) -> Vec<Explanation<usize>> {
+        let on = |(index, one): (usize, &Explanation<Kept>)| Explanation {
+            keys: one.keys.clone(),
+            fitted: index,
+            scores: places.iter().map(|&place| one.scores[place]).collect(),
+            freedom: one.freedom,
+            log_prior: one.log_prior,
+        };
+        self.all.iter().enumerate().map(on).collect()
     }
 
-    fn without_causes(&self) -> Self {
-        Self { parts: Vec::new(), curves: Vec::new(), ..self.clone() }
+    /// The rows of an explanation; of a rival the rows as they are: it asks the user before any physics is named.
+    fn data(&self, one: &Explanation<Kept>) -> &DataSplit {
+        let ground = &self.grounds[one.fitted.ground];
+        if ground.is_rival() { &self.grounds[0].data } else { &ground.data }
     }
 }
 
@@ -140,6 +142,10 @@ impl CauseChoice {
         exploration.add(found);
         exploration.expand(&search, task.effort.expanded);
         let mut visited = exploration.finish(&search);
+        if visited.is_empty() {
+            // Without any evidence the base model stays.
+            visited.extend(search.starts().into_iter().take(1));
+        }
         temper(&mut visited, &grounds);
         let ground = |one: &ImpactExplanation<'_>| grounds[one.fitted.ground];
         let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
@@ -150,68 +156,75 @@ impl CauseChoice {
             rival: ground(one).question.clone().map(|question| (ground(one).key.clone(), question)),
         };
         let explanations = Explanations::new(&visited, evidence, &units, told);
-        let best = explanations.best().map(|best| &visited[best.place]);
-        Self::of(data, &grounds, best, explanations, task.effort.law_or_curve)
+        let all = explanations.all().iter().map(|one| kept(&visited[one.place])).collect();
+        let grounds = plain.into_iter().chain(beside.into_iter().map(|one| one.ground)).collect();
+        Self::of(Visited { all, grounds, evidence, units }, explanations)
     }
 
     /// The choice of the best explanation, with what is probable enough to be named.
-    fn of(
-        data: &DataSplit,
-        grounds: &[&Ground],
-        best: Option<&ImpactExplanation<'_>>,
-        explanations: Explanations<ScoredCandidate>,
-        law_or_curve: bool,
-    ) -> Self {
-        let ground = best.map_or(0, |best| best.fitted.ground);
-        // A rival asks the user before any physics is named.
-        let data = if grounds[ground].is_rival() { data } else { &grounds[ground].data };
-        let hypothesis = best.map_or_else(|| Hypothesis::base(data), |best| best.fitted.hypothesis.clone());
-        let discoveries = explanations.named(|one| one.addition.names(data, law_or_curve));
-        let keys: Vec<String> = discoveries.iter().map(|one| one.addition.key(data)).collect();
-        let state = FoundParts::of(&hypothesis, &keys);
-        let causes: Vec<String> = discoveries.iter().map(|one| one.addition.name(data)).collect();
-        let structure =
-            [&[][..], &distinct(causes.iter())].map(|causes| smallest_beside(&explanations, causes));
-        let (data, shared) = (data.clone(), SharedErrors::default());
-        let outliers = grounds[ground].outliers;
-        let mut choice = Self { data, explanations, discoveries, structure, shared, outliers, state };
-        // The scatter about what is named, without the rest of the explanation.
-        let mut named = choice.hypothesis(&choice.data);
-        named.fit_scatter(&choice.data.search);
-        choice.state.scatter = named.scatter;
-        choice.shared = choice.shared_errors(&choice.data);
+    fn of(visited: Visited, explanations: Explanations<ScoredCandidate>) -> Self {
+        let best = &visited.all[0];
+        let data = visited.data(best);
+        let discoveries = explanations.named(|one| one.addition.names(data, false), |_| false);
+        let causes = named(data, best, discoveries.iter());
+        let structure = [&[][..], &causes.names].map(|causes| smallest_beside(&explanations, causes));
+        let outliers = visited.grounds[best.fitted.ground].outliers;
+        let shared = SharedErrors::default();
+        let visited = Arc::new(visited);
+        let mut choice = Self { causes, explanations, discoveries, structure, shared, outliers, visited };
+        choice.shared = choice.shared_errors();
         choice
+    }
+
+    /// What some of the rows would name of the explanations that were visited: of the best one what all rows name, and
+    /// what is probable enough by these rows. A law counts with a curve over its inputs: they predict the same.
+    pub fn again(&self, fitted: &[usize]) -> NamedCauses {
+        let (visited, told) = (&self.visited, self.explanations.all());
+        let rows = &visited.grounds[0].data;
+        let mut inside = vec![false; rows.rows.len()];
+        fitted.iter().for_each(|&row| inside[row] = true);
+        let places: Vec<usize> = (0..rows.search.len()).filter(|&place| inside[rows.search[place]]).collect();
+        let some = visited.on(&places);
+        let share = places.len() as f64 / rows.search.len() as f64;
+        let base = some.iter().find(|one| one.keys.is_empty()).map_or(0.0, Explanation::score);
+        let evidence = Evidence { base, readings: share * visited.evidence.readings, ..visited.evidence };
+        let units: Vec<usize> = places.iter().map(|&place| visited.units[place]).collect();
+        let tell = |one: &Explanation<usize>| {
+            let Told { causes, additions, rival } = &told[one.fitted].told;
+            Told { causes: causes.clone(), additions: additions.iter().collect(), rival: rival.clone() }
+        };
+        let explanations = Explanations::new(&some, evidence, &units, tell);
+        let best = &visited.all[explanations.best().map_or(0, |best| best.place)];
+        let data = visited.data(best);
+        let by_all = |one: &ScoredCandidate| self.causes.names.contains(&one.addition.name(data));
+        let found = explanations.named(|one| one.addition.names(data, true), |one| by_all(one));
+        named(&data.fitting(fitted), best, found.into_iter())
     }
 
     /// The most probable addition of this name.
     pub fn addition(&self, cause: &str) -> Option<&ScoredCandidate> {
         let mut all = self.explanations.all().iter().flat_map(|one| &one.told.additions);
-        all.find(|one| one.addition.name(&self.data) == cause)
+        all.find(|one| one.addition.name(&self.causes.data) == cause)
     }
 
     /// The errors that groups share beside the causes.
-    fn shared_errors(&self, grouped: &DataSplit) -> SharedErrors {
-        let hypothesis = self.hypothesis(grouped);
-        let rows = hypothesis.evaluate(&*grouped.search, hypothesis.offsets()).with_fitted_scatter();
+    fn shared_errors(&self) -> SharedErrors {
+        let data = &self.causes.data;
+        let hypothesis = self.causes.hypothesis(data);
+        let rows = hypothesis.evaluate(&*data.search, hypothesis.offsets()).with_fitted_scatter();
         (*rows.shared).clone()
-    }
-
-    /// The causes on these rows, as of the search.
-    pub fn hypothesis<'a>(&self, data: &'a DataSplit) -> Hypothesis<'a> {
-        let FoundParts { parts, curves, scatter_trends, captures, scatter } = self.state.clone();
-        Hypothesis { curves, scatter_trends, captures, ..Hypothesis::with_parts(data, parts, scatter) }
     }
 
     /// The same without causes.
     pub fn without_causes(&self) -> Self {
-        Self { discoveries: Vec::new(), state: self.state.without_causes(), ..self.clone() }
+        Self { discoveries: Vec::new(), causes: self.causes.without_causes(), ..self.clone() }
     }
 
     /// The groups and the error that they share, if they do.
     pub fn groups_found(&self) -> Option<GroupsFound> {
-        let groups = self.data.shared.as_ref()?;
+        let groups = self.causes.data.shared.as_ref()?;
         let share = |which: usize| {
-            let [shared, own] = [self.shared.scatter[which].powi(2), self.state.scatter[which].powi(2)];
+            let [shared, own] = [self.shared.scatter[which].powi(2), self.causes.scatter()[which].powi(2)];
             if shared > 0.0 { shared / (shared + own) } else { 0.0 }
         };
         Some(GroupsFound {
@@ -222,43 +235,26 @@ impl CauseChoice {
             share: [share(0), share(1)],
         })
     }
+}
 
-    /// The ids of the causes, in alphabetical order.
-    pub fn names(&self) -> Vec<String> {
-        let mut names: Vec<String> =
-            self.discoveries.iter().map(|found| found.addition.name(&self.data)).collect();
-        names.sort_unstable();
-        names.dedup();
-        names
+/// An explanation without its rows.
+fn kept(one: &ImpactExplanation<'_>) -> Explanation<Kept> {
+    Explanation {
+        keys: one.keys.clone(),
+        fitted: Kept { ground: one.fitted.ground, found: FoundParts::of(&one.fitted.hypothesis) },
+        scores: one.scores.clone(),
+        freedom: one.freedom,
+        log_prior: one.log_prior,
     }
+}
 
-    /// Scatter of single measurements about the causes [1].
-    pub fn scatter(&self) -> Scatter {
-        self.state.scatter
-    }
-
-    /// The rows for the final fit.
-    pub fn fine(&self) -> DataSplit {
-        self.data.fine(self.state.parts.iter().any(|fitted| fitted.part.is_stochastic()))
-    }
-
-    /// All parameters fitted to the fitted rows of `fine`, with their intervals.
-    pub fn fitted<'a>(&self, fine: &'a DataSplit) -> Hypothesis<'a> {
-        let mut hypothesis = self.hypothesis(fine);
-        hypothesis.fit(&fine.fit);
-        hypothesis.polish(&fine.fit);
-        hypothesis.settle_forms(&fine.fit);
-        set_intervals(&mut hypothesis, &fine.fit);
-        form_finding::set_intervals(&mut hypothesis);
-        hypothesis
-    }
-
-    /// The model file of this choice, for a gain: without intervals.
-    pub fn model_text(&self, task: Task<'_>) -> Result<String, toml_edit::TomlError> {
-        let fine = self.fine();
-        let mut hypothesis = self.hypothesis(&fine);
-        hypothesis.fit(&fine.fit);
-        hypothesis.settle_forms(&fine.fit);
-        extend::extended(task.text, &hypothesis)
-    }
+/// The causes of an explanation that are named, on these rows.
+fn named<'a>(
+    data: &DataSplit,
+    of: &Explanation<Kept>,
+    additions: impl Iterator<Item = &'a ScoredCandidate> + Clone,
+) -> NamedCauses {
+    let keys: Vec<String> = additions.clone().map(|one| one.addition.key(data)).collect();
+    let names = additions.map(|one| one.addition.name(data)).collect();
+    NamedCauses::new(data, of.fitted.found.clone(), &keys, names)
 }

@@ -24,13 +24,10 @@ pub(super) struct Effort {
     pub expanded: usize,
     /// Explanations of each expansion of which all parameters are fitted together.
     pub refitted: usize,
-    /// Whether a law counts with a curve over its columns, too: for what is predicted they are the same.
-    pub law_or_curve: bool,
 }
 
-/// Of the choice that is told, and of those that only measure the gain.
-pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3, law_or_curve: false };
-pub(super) const QUICK: Effort = Effort { expanded: 2, refitted: 1, law_or_curve: true };
-/// The same for rigs, whose candidates are looked at in one table: only fits cost predictions.
-pub(super) const THOROUGH_RIG: Effort = Effort { expanded: 4, refitted: 12, law_or_curve: false };
-pub(super) const QUICK_RIG: Effort = Effort { expanded: 3, refitted: 0, law_or_curve: false };
+/// Of measured impacts.
+pub(super) const THOROUGH: Effort = Effort { expanded: 6, refitted: 3 };
+/// Of rigs, whose candidates are looked at in one table: only fits cost predictions.
+pub(super) const THOROUGH_RIG: Effort = Effort { expanded: 4, refitted: 12 };
+pub(super) const QUICK_RIG: Effort = Effort { expanded: 3, refitted: 0 };

@@ -114,11 +114,11 @@ impl<A: Clone> Explanations<A> {
         &self.0[..self.0.iter().take_while(inside).count()]
     }
 
-    /// The additions of the most probable explanation that are probable enough to be named. None beside
-    /// a rival, which asks the user before any physics is named. `names` are the cause and those that describe the
-    /// same dependence, which count together; none for what is noise.
-    pub fn named(&self, names: impl Fn(&A) -> Vec<String>) -> Vec<A> {
-        let probable = |one: &&A| self.probability_of_any(&names(one)) >= NAMED;
+    /// The additions of the most probable explanation that are probable enough to be named, or `known` to be. None
+    /// beside a rival, which asks the user before any physics is named. `names` are the cause and those that describe
+    /// the same dependence, which count together; none for what is noise.
+    pub fn named(&self, names: impl Fn(&A) -> Vec<String>, known: impl Fn(&A) -> bool) -> Vec<A> {
+        let probable = |one: &&A| known(one) || self.probability_of_any(&names(one)) >= NAMED;
         match self.best() {
             Some(best) if best.is_physics() => best.told.additions.iter().filter(probable).cloned().collect(),
             _ => Vec::new(),

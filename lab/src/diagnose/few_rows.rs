@@ -9,8 +9,9 @@
 //! Pearson's, which exceeds `n - k` where the impacts of a class are not independent
 //! (over-dispersion; McCullagh and Nelder 1989, ch. 4).
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
+use super::chi_square;
 use super::evaluation::Evaluation;
 use super::observable::Observable;
 
@@ -64,7 +65,7 @@ impl FewRows {
             return 1.0;
         }
         let p = if rest <= left {
-            ChiSquared::new(freedom).map_or(1.0, |law| law.sf(fall))
+            chi_square::p_value(fall, freedom)
         } else {
             FisherSnedecor::new(freedom, left).map_or(1.0, |law| law.sf((fall / freedom) / (rest / left)))
         };

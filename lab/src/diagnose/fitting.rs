@@ -9,9 +9,10 @@
 use std::cell::Cell;
 
 use rayon::prelude::*;
-use statrs::distribution::{ChiSquared, ContinuousCDF, Normal};
+use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::candidate::{Addition, Candidate, ScoredCandidate, t_statistic};
+use super::chi_square;
 use super::closed_form::forms;
 use super::constant_capture::CaptureConstant;
 use super::curve::{ColumnCurve, ColumnCurveForm};
@@ -322,8 +323,7 @@ impl<'a> CandidateRound<'a> {
 
 /// Probability that one parameter gains this much in log likelihood [nats] by chance.
 pub(super) fn chance_of_gain(gain: f64) -> f64 {
-    let law = ChiSquared::new(1.0);
-    law.map_or(1.0, |law| 0.5 * law.sf(2.0 * gain.max(0.0))).clamp(1e-300, 1.0)
+    (0.5 * chi_square::p_value(2.0 * gain.max(0.0), 1.0)).clamp(1e-300, 1.0)
 }
 
 /// Probability that the mean of a row's gain lies as far above 0 by chance.

@@ -1,5 +1,5 @@
-//! The gain of the extended model, measured by running its file on rows that no choice and no fit
-//! saw; and the rows of the figures.
+//! The gain of the extended model, measured by running its file on rows that it was not fitted to; and
+//! the rows of the figures.
 
 use std::sync::Arc;
 

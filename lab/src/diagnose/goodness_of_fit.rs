@@ -7,8 +7,9 @@
 
 use std::collections::BTreeMap;
 
-use statrs::distribution::{ChiSquared, ContinuousCDF, FisherSnedecor};
+use statrs::distribution::{ContinuousCDF, FisherSnedecor};
 
+use super::chi_square;
 use super::evaluation::{Evaluation, StatedResidual};
 use super::hypothesis::Hypothesis;
 use super::record::{Fit, FitTest, LargeMisfit};
@@ -38,7 +39,7 @@ fn rows_alone<'a>(hypothesis: &Hypothesis<'a>) -> Evaluation<'a> {
 fn test(rows: &Evaluation<'_>, parameters: f64, structure: f64) -> FitTest {
     if let Some((chi_square, count)) = rows.stated_chi_square() {
         let freedom = (count as f64 - parameters).max(1.0);
-        let p_value = ChiSquared::new(freedom).map_or(1.0, |law| law.sf(chi_square));
+        let p_value = chi_square::p_value(chi_square, freedom);
         return FitTest {
             against: "stated errors",
             chi_square: Some(chi_square),

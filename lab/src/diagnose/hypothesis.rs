@@ -3,8 +3,7 @@
 use std::borrow::Cow;
 use std::cell::Cell;
 
-use statrs::distribution::{ChiSquared, ContinuousCDF};
-
+use super::chi_square;
 use super::constant_capture::{CaptureConstant, ConstantCapture};
 use super::constants::FIRST_SCATTER;
 use super::curve::{ColumnCurve, ColumnCurveForm};
@@ -169,8 +168,8 @@ impl<'a> Hypothesis<'a> {
     /// p-value of the discrepancy; `None` without one.
     pub fn lack_of_fit(&self) -> Option<f64> {
         let freedom = self.discrepancy_freedom;
-        let law = ChiSquared::new(freedom).ok()?;
-        Some(law.sf(2.0 * (self.discrepancy_gain() + freedom).max(0.0)).max(1e-300))
+        let fall = 2.0 * (self.discrepancy_gain() + freedom).max(0.0);
+        (freedom > 0.0).then(|| chi_square::p_value(fall, freedom).max(1e-300))
     }
 
     /// The number of fitted parameters.

@@ -99,9 +99,10 @@ pub struct Rows {
     /// Number of rows that represent all used rows of a large file in choices, fits and gain; `None` for all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub selected: Option<usize>,
-    /// Impacts and readings that no fit and no choice used; an average counts as the captures and rebounds it states.
+    /// Impacts and readings that the model file was not fitted to; an average counts as the captures and rebounds it
+    /// states.
     pub held_out: usize,
-    /// Lines of the file that no fit and no choice used, at most 1000; none if the gain is cross-validated.
+    /// Lines of the file that the model file was not fitted to, at most 1000; none if the gain is cross-validated.
     pub held_out_lines: Vec<u64>,
     /// Rows that were not used; some of them where `read` less `used` is larger.
     pub rejected: Vec<BadRow>,
@@ -360,9 +361,9 @@ pub struct NotExamined {
 pub struct Gain {
     /// Number of rows.
     pub held_out_rows: usize,
-    /// `held-out` if `extended.toml` itself was run on rows that no fit and no choice saw;
-    /// `cross-validated` with few rows, where each row is predicted by a model file that was chosen
-    /// and fitted without it.
+    /// `held-out` if `extended.toml` itself was run on rows that it was not fitted to, and without which the same
+    /// causes are chosen; `cross-validated` where each row is predicted by a model file that was chosen, of the
+    /// explanations that all rows led to, and fitted without it.
     pub measured: &'static str,
     /// `e_n`, `e_t` or `outcome`.
     pub observable: &'static str,
@@ -484,7 +485,7 @@ pub struct DataView {
 /// A row for figures.
 #[derive(Debug, Clone)]
 pub struct SampleRow {
-    /// Whether no fit and no choice used it.
+    /// Whether the model file was not fitted to it.
     pub held_out: bool,
     /// Its cells, by column; the index of the label for a column of labels; NaN where blank.
     pub cells: Vec<f64>,

@@ -128,7 +128,7 @@ pub(super) fn not_examined(
 
 /// The observable with most measurements.
 fn main_observable(choice: &CauseChoice) -> &'static str {
-    let data = &choice.data;
+    let data = &choice.causes.data;
     let count =
         |o: &Observable| data.search.iter().filter(|&&row| o.measured(&data.rows[row]).is_some()).count();
     let best = Observable::ALL.into_iter().rev().max_by_key(count);
@@ -147,7 +147,7 @@ pub(super) fn possible_causes(fit: &Fit, choice: &CauseChoice) -> Vec<String> {
         .collect();
     possible.sort_by(|a, b| b.gain().total_cmp(&a.gain()));
     // A column may explain e_n and e_t.
-    let names: Vec<String> = possible.iter().map(|one| one.addition.name(&choice.data)).collect();
+    let names: Vec<String> = possible.iter().map(|one| one.addition.name(&choice.causes.data)).collect();
     let mut names = distinct(names.iter());
     names.truncate(MOST_UNDECIDED);
     names

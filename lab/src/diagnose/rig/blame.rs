@@ -1,8 +1,8 @@
 //! Whose fault a misfit is: the wall law's, or that of the case's numbers.
 
 use serde::Serialize;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::super::chi_square;
 use super::super::constants::LISTED;
 use super::super::part::rounded;
 use super::addition::RigAddition;
@@ -168,7 +168,7 @@ fn carried(study: &RigStudy<'_>, additions: &[RigAddition]) -> Result<Carriers, 
     let regular = study.data.regular(&whole, &weights);
     let fit = |predicted: &[PredictedReading]| study.data.case_fit(&regular, predicted, &scatter);
     let mut left = fit(&study.table.base).chi_square;
-    let misfit = ChiSquared::new(regular.len() as f64).map_or(1.0, |law| law.sf(left));
+    let misfit = chi_square::p_value(left, regular.len() as f64);
     let mut fall = |predicted: &[PredictedReading]| {
         let before = left;
         left = fit(predicted).chi_square;

@@ -40,7 +40,7 @@ impl RigChoice {
         let search = RigSearch::new(study, &weights, effort.refitted, &[]);
         let visited = explore(&search, vec![search.start()], effort.expanded);
         let explanations = explanations(&search, &visited, &weights);
-        let named = explanations.named(RigAddition::names);
+        let named = explanations.named(RigAddition::names, |_| false);
         let best = explanations.best_additions().len();
         let named = if named.len() < best { study.fit(&named, &weights) } else { named };
         let mut choice = Self { explanations, named: Vec::new(), structure: [1.0; 2], visited };

@@ -1,8 +1,8 @@
 //! The record of a diagnosis of a rig, and its verdict.
 
 use serde::Serialize;
-use statrs::distribution::{ChiSquared, ContinuousCDF};
 
+use super::super::chi_square;
 use super::super::closed_form::ClosedForm;
 use super::super::constant_capture::CaptureConstant;
 use super::super::constants::REFUTED;
@@ -113,10 +113,6 @@ pub(super) struct RigFindings<'a> {
     pub extended_case: Option<String>,
     pub draws: Vec<String>,
     pub next: Vec<NextExperiment>,
-}
-
-fn p_of(chi_square: f64, freedom: f64) -> f64 {
-    ChiSquared::new(freedom).map_or(1.0, |law| law.sf(chi_square))
 }
 
 impl RigFindings<'_> {
@@ -242,7 +238,7 @@ impl RigFindings<'_> {
             against: "stated errors",
             chi_square: Some(chi_square),
             degrees_of_freedom: Some(freedom),
-            p_value: Some(p_of(chi_square, freedom as f64)),
+            p_value: Some(chi_square::p_value(chi_square, freedom as f64)),
         }
     }
 

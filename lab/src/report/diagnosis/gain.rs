@@ -1,4 +1,4 @@
-//! What the extended model gains on rows that no fit and no choice saw.
+//! What the extended model gains on rows that it was not fitted to.
 
 use super::super::chart::{Chart, ErrorBars, Figure};
 use super::super::format::{number, whole_percent};
@@ -46,11 +46,11 @@ fn measured(gain: &Gain, groups: bool) -> String {
     if gain.measured == "cross-validated" {
         let group = if groups { " and without the other rows of its group" } else { "" };
         return format!(
-            "The rows are too few to hold some back. Each was predicted by a model file that was chosen and fitted \
-                without it{group}; extended.toml itself is fitted to all rows."
+            "Each row was predicted by a model file that was chosen, of the explanations that all rows led to, and \
+                fitted without it{group}; extended.toml itself is fitted to all rows."
         );
     }
-    "extended.toml, as it was written, predicted rows that neither fit nor choice saw.".to_owned()
+    "extended.toml, as it was written, predicted rows that it was not fitted to; without them the same causes are chosen.".to_owned()
 }
 
 /// What an observable gains, in words.

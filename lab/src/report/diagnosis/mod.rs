@@ -69,7 +69,7 @@ fn rows(diagnosis: &Diagnosis) -> String {
     let held_out = match rows.held_out {
         0 => String::new(),
         _ if in_turn => String::new(),
-        count => format!("; {count} observations were held out of every fit and choice"),
+        count => format!("; {count} observations were held out of the fit"),
     };
     let selected = rows.selected.map_or(String::new(), |count| {
         format!("; {count} of them, selected at random, stand for all in choices, fits and gain")

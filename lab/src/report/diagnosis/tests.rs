@@ -241,7 +241,7 @@ fn a_cause_says_how_sure_it_is() {
             "The 6 values of burst were noticed as groups",
             "e_t 0.02 45 %",
             "e_t: the error falls from 0.013 to 0.0102. The noise floor is 0.01: what is left is noise.",
-            "The rows are too few to hold some back.",
+            "Each row was predicted by a model file that was chosen",
             "12 rows. Bars are the stated standard errors. The closer to the line, the better the prediction. The \
                 extended model was fitted to these rows",
             "lie 33 % and 67 % for the base model, 100 % and 100 % for the extended model",
