@@ -50,7 +50,9 @@ fn measured(gain: &Gain, groups: bool) -> String {
                 fitted without it{group}; extended.toml itself is fitted to all rows."
         );
     }
-    "extended.toml, as it was written, predicted rows that it was not fitted to; without them the same causes are chosen.".to_owned()
+    "extended.toml, as it was written, predicted rows that it was not fitted to; without them the same causes are \
+        chosen."
+        .to_owned()
 }
 
 /// What an observable gains, in words.
