@@ -1,5 +1,7 @@
 //! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
 
+use rayon::prelude::*;
+
 use super::candidate::{Class, FURTHER};
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
@@ -125,7 +127,7 @@ pub(super) fn grounds(
 fn rivals(data: &DataSplit, searched: &DataSplit, text: &str, evidence: Evidence) -> Vec<Ground> {
     let (slips, readings) = (slips(&data.base, text), readings(data));
     let best_of = |others: &[OtherReading]| -> Vec<Ground> {
-        others.iter().filter_map(|other| best(data, searched, other, evidence)).collect()
+        others.par_iter().filter_map(|other| best(data, searched, other, evidence)).collect()
     };
     let skewed = skewed(data);
     let mut instruments = best_of(&readings);
@@ -185,7 +187,7 @@ fn with_further_errors(searched: &DataSplit, known: &Errors, evidence: Evidence)
         let sizes = SHARES.iter().filter_map(|share| sized(name, *share));
         sizes.filter(|(worth, _)| *worth > 0.0).max_by(|a, b| a.0.total_cmp(&b.0))
     };
-    UNSTATED.into_iter().filter(is_open).filter_map(best).collect()
+    UNSTATED.into_par_iter().filter(is_open).filter_map(best).collect()
 }
 
 /// Whether an input varies and states no errors.

@@ -116,7 +116,8 @@ fn profiled(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Resul
     let profile = LikelihoodProfile::new(hypothesis, rows);
     let walk = |place: usize, quantile: f64, error: f64| {
         let end = |sign| profile.end(place, sign, quantile, error);
-        Ok([end(-1.0)?, end(1.0)?])
+        let (low, high) = rayon::join(|| end(-1.0), || end(1.0));
+        Ok([low?, high?])
     };
     let first = first_errors(hypothesis, rows);
     let count = first.len();
