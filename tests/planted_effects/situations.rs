@@ -41,6 +41,7 @@ use rayon::prelude::*;
 use crate::random;
 use crate::set_rng::SetRng;
 use crate::sets::is_wanted;
+use judge::Verdict;
 use set::{Plan, PlanOf, Recipe};
 
 /// Name, sets and plan of a situation.
@@ -186,6 +187,19 @@ fn diagnoses_hold_in_a_laboratory() {
     let all: Vec<_> = of_this_run(seed).par_iter().map(one).collect();
     let failures = table::report(&all);
     assert!(failures.is_empty(), "NEARWALL_TEST_SEED={seed}\n{}", failures.join("\n"));
+}
+
+/// Two sets on which lift of the gas was named for what a smooth remainder over its inputs gained from the noise.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow in a debug build, as all situations")]
+fn diagnoses_hold_where_a_remainder_gains() {
+    let seed = 20_261_130_001;
+    for wanted in ["own-tangential.e_t", "capture-temperature"] {
+        let (name, _, plan) = situations().into_iter().find(|(name, ..)| name == wanted).unwrap();
+        let set = Recipe::new(&name, 0, plan).make(seed);
+        let judged = judge::judge(&set, &run::run(&set, seed));
+        assert!(judged.verdict != Verdict::False, "{}: {:?}", judged.name, judged.verdict);
+    }
 }
 
 /// The advice on what to measure next names the law with fewer shots than even shots.

@@ -312,12 +312,17 @@ impl<'a> Hypothesis<'a> {
 
     /// Fits a smooth surface to the residuals over the parts' inputs, so that an inexact law needs no second cause.
     pub fn fit_discrepancy(&mut self) {
+        self.fit_discrepancy_of(self.parts.len());
+    }
+
+    /// The same over the inputs of the first so many parts.
+    pub fn fit_discrepancy_of(&mut self, parts: usize) {
         self.discrepancy = None;
         self.acts_on = self.actions();
         let all = self.data.all();
         let evaluation = self.evaluate(&self.data.search, self.offsets()).with_fitted_scatter();
         let of = |observable| {
-            let (own, others) = self.discrepancy_columns(observable);
+            let (own, others) = self.discrepancy_columns(observable, parts);
             if own.is_empty() {
                 return (vec![0.0; all.len()], 0.0);
             }
@@ -347,10 +352,14 @@ impl<'a> Hypothesis<'a> {
     /// with one of them.
     ///
     /// The plain laws explain speed and diameter: for a part with another input they only interact with that input.
-    fn discrepancy_columns(&self, observable: Observable) -> (Vec<&'a ColumnValues>, Vec<&'a ColumnValues>) {
+    fn discrepancy_columns(
+        &self,
+        observable: Observable,
+        parts: usize,
+    ) -> (Vec<&'a ColumnValues>, Vec<&'a ColumnValues>) {
         let plain = |name: &&str| ["v_n", "d"].contains(name);
         let mut own: Vec<&str> = Vec::new();
-        for part in self.acting_on(observable) {
+        for part in self.acting_on(observable, parts) {
             let inputs = part.part.inputs();
             let alone = inputs.iter().all(plain);
             own.extend(inputs.iter().filter(|name| alone || !plain(name)));
@@ -363,15 +372,17 @@ impl<'a> Hypothesis<'a> {
         (own.iter().copied().filter_map(values).collect(), others.filter_map(values).collect())
     }
 
-    fn acting_on(&self, observable: Observable) -> impl Iterator<Item = &FittedPart> {
-        let acting = self.parts.iter().zip(&self.acts_on).filter(move |(_, on)| on.contains(&observable));
-        acting.map(|(part, _)| part)
+    /// Those of the first so many parts that act on an observable.
+    fn acting_on(&self, observable: Observable, parts: usize) -> impl Iterator<Item = &FittedPart> {
+        let all = self.parts.iter().zip(&self.acts_on).take(parts);
+        all.filter(move |(_, on)| on.contains(&observable)).map(|(part, _)| part)
     }
 
     /// The columns on which a part or a curve of this observable depends, by index; of a part those
     /// beside speed and diameter, if any.
     pub fn columns_of(&self, observable: Observable) -> Vec<usize> {
-        let of_parts = self.acting_on(observable).flat_map(|part| own_inputs(part.part.inputs()));
+        let of_parts =
+            self.acting_on(observable, self.parts.len()).flat_map(|part| own_inputs(part.part.inputs()));
         let index = |name: &str| self.data.covariates.iter().position(|column| column.name == name);
         let curves = self.curves.iter().filter(|curve| curve.form.observable == observable);
         let of_curves =

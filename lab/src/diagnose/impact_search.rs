@@ -143,9 +143,17 @@ impl<'a> ImpactSearch<'a> {
             return self.with_or_without_remainder(new);
         }
         let before = ground.scores(&of.fitted.hypothesis);
-        let scores = moved(&of.scores, &before, &ground.scores(&new.fitted.hypothesis));
-        if scores.iter().sum::<f64>() > new.score() {
-            new.scores = scores;
+        // Beside the remainder of the earlier laws, or beside its own as well, for which it pays.
+        let with = new.fitted.hypothesis.clone();
+        let mut alone = with.clone();
+        alone.fit_discrepancy_of(of.fitted.hypothesis.parts.len());
+        let paid = (with.discrepancy_freedom - alone.discrepancy_freedom).max(0.0);
+        let worth = |scores: &[f64], freedom| self.evidence.gain(scores.iter().sum(), freedom);
+        for (hypothesis, freedom) in [(&alone, new.freedom), (&with, new.freedom + paid)] {
+            let scores = moved(&of.scores, &before, &ground.scores(hypothesis));
+            if worth(&scores, freedom) > worth(&new.scores, new.freedom) {
+                (new.scores, new.freedom) = (scores, freedom);
+            }
         }
         new
     }
