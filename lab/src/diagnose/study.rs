@@ -15,6 +15,7 @@ use super::choice::{CauseChoice, Task};
 use super::data_split::{DataSplit, shuffled};
 use super::gain::{CROSS_VALIDATED, HELD_OUT, HeldOutRows, ModelFile};
 use super::hypothesis::Hypothesis;
+use super::likelihood::Scatter;
 use super::named_causes::NamedCauses;
 use super::observable::Observable;
 use super::record::Gain;
@@ -123,14 +124,7 @@ impl Study {
             return Ok(MeasuredGain { how: HELD_OUT, rows: held_out, seen: None });
         }
         let parts = self.units.parts(self.seed);
-        let file = |part: &Vec<usize>| {
-            let mut inside = vec![false; whole.rows.len()];
-            part.iter().for_each(|&row| inside[row] = true);
-            let others: Vec<usize> = (0..whole.rows.len()).filter(|&row| !inside[row]).collect();
-            let choice = self.choice.again(&others);
-            let text = choice.model_text(task).unwrap_or_else(|_| task.text.to_owned());
-            Ok((Model::from_toml("extended.toml", &text)?, choice.scatter(), choice.data.tails()))
-        };
+        let file = |part: &Vec<usize>| self.file_without(part, task);
         let files: Vec<(Model, _, _)> = parts.par_iter().map(file).collect::<Result<_, InputError>>()?;
         for (part, (model, scatter, tails)) in parts.iter().zip(&files) {
             held_out.add(
@@ -145,6 +139,16 @@ impl Study {
         let extended = ModelFile { model: &model, scatter: models[1].scatter, tails: models[1].data.tails() };
         seen.add(rows, &self.units.of_row, &whole.all(), [&base, &extended]);
         Ok(MeasuredGain { how: CROSS_VALIDATED, rows: held_out, seen: Some(seen) })
+    }
+
+    /// The model that the rows beside this part choose and fit, with its scatter and the shares of heavy tails [1].
+    fn file_without(&self, part: &[usize], task: Task<'_>) -> Result<(Model, Scatter, [f64; 2]), InputError> {
+        let mut inside = vec![false; self.units.of_row.len()];
+        part.iter().for_each(|&row| inside[row] = true);
+        let others: Vec<usize> = (0..inside.len()).filter(|&row| !inside[row]).collect();
+        let causes = self.choice.again(&others);
+        let text = causes.model_text(task).unwrap_or_else(|_| task.text.to_owned());
+        Ok((Model::from_toml("extended.toml", &text)?, causes.scatter(), causes.data.tails()))
     }
 }
 
