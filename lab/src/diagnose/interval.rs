@@ -122,15 +122,20 @@ fn profiled(hypothesis: &Hypothesis<'_>, rows: &[usize], quantile: f64) -> Resul
     let first = first_errors(hypothesis, rows);
     let count = first.len();
     let plain = |place: usize| walk(place, quantile, first[place]);
-    let ends: Vec<[f64; 2]> = (0..count).into_par_iter().map(plain).collect::<Result<_, Higher>>()?;
+    let ends = all_or_first_higher((0..count).into_par_iter().map(plain).collect())?;
     let errors: Vec<f64> = ends.iter().map(|[low, high]| 0.5 * (high - low) / quantile).collect();
     let covariance = Covariance::of(hypothesis, rows, &steps(&errors));
     let wider = |place: usize| {
         let factor = covariance.factors[place].sqrt();
         if factor > 1.0 { walk(place, quantile * factor, errors[place]) } else { Ok(ends[place]) }
     };
-    let ends = (0..count).into_par_iter().map(wider).collect::<Result<_, Higher>>()?;
+    let ends = all_or_first_higher((0..count).into_par_iter().map(wider).collect())?;
     Ok(FoundIntervals { ends, covariance })
+}
+
+/// The ends of all walks, or the first place that is higher, whichever thread finds one first.
+fn all_or_first_higher(walks: Vec<Result<[f64; 2], Higher>>) -> Result<Vec<[f64; 2]>, Higher> {
+    walks.into_iter().collect()
 }
 
 /// Pairs of a part's parameters, by place, of which the data determine only a combination, with their correlation [1].
