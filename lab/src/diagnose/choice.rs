@@ -196,8 +196,8 @@ impl CauseChoice {
         let explanations = Explanations::new(&some, evidence, &units, tell);
         let best = &visited.all[explanations.best().map_or(0, |best| best.place)];
         let data = visited.data(best);
-        let by_all = |one: &ScoredCandidate| self.causes.names.contains(&one.addition.name(data));
-        let found = explanations.named(|one| one.addition.names(data, true), |one| by_all(one));
+        let by_all = |one: &&ScoredCandidate| self.causes.names.contains(&one.addition.name(data));
+        let found = explanations.named(|one| one.addition.names(data, true), by_all);
         named(&data.fitting(fitted), best, found.into_iter())
     }
 

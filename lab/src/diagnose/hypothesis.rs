@@ -312,13 +312,13 @@ impl<'a> Hypothesis<'a> {
 
     /// Fits a smooth surface to the residuals over the parts' inputs, so that an inexact law needs no second cause.
     pub fn fit_discrepancy(&mut self) {
+        self.acts_on = self.actions();
         self.fit_discrepancy_of(self.parts.len());
     }
 
-    /// The same over the inputs of the first so many parts.
+    /// The same over the inputs of the first so many parts, of which it is known what they act on.
     pub fn fit_discrepancy_of(&mut self, parts: usize) {
         self.discrepancy = None;
-        self.acts_on = self.actions();
         let all = self.data.all();
         let evaluation = self.evaluate(&self.data.search, self.offsets()).with_fitted_scatter();
         let of = |observable| {

@@ -144,13 +144,14 @@ impl<'a> ImpactSearch<'a> {
         }
         let before = ground.scores(&of.fitted.hypothesis);
         // Beside the remainder of the earlier laws, or beside its own as well, for which it pays.
-        let with = new.fitted.hypothesis.clone();
+        let with = &new.fitted.hypothesis;
         let mut alone = with.clone();
         alone.fit_discrepancy_of(of.fitted.hypothesis.parts.len());
         let paid = (with.discrepancy_freedom - alone.discrepancy_freedom).max(0.0);
         let worth = |scores: &[f64], freedom| self.evidence.gain(scores.iter().sum(), freedom);
-        for (hypothesis, freedom) in [(&alone, new.freedom), (&with, new.freedom + paid)] {
-            let scores = moved(&of.scores, &before, &ground.scores(hypothesis));
+        let choices = [(&alone, new.freedom), (with, new.freedom + paid)]
+            .map(|(hypothesis, freedom)| (moved(&of.scores, &before, &ground.scores(hypothesis)), freedom));
+        for (scores, freedom) in choices {
             if worth(&scores, freedom) > worth(&new.scores, new.freedom) {
                 (new.scores, new.freedom) = (scores, freedom);
             }

@@ -25,7 +25,7 @@ use nearwall::model::Model;
 
 /// With fewer units the gain is cross-validated.
 const LEAST_UNITS: usize = 40;
-/// With fewer unseen rows, too: they would know a root mean square to no better than a tenth.
+/// With fewer unseen rows, too: they tell a root mean square to no better than a tenth.
 const LEAST_UNSEEN: usize = 50;
 /// With fewer groups their rows are held out one by one: so few groups say nothing of others.
 const LEAST_HELD_OUT_GROUPS: usize = 5;
@@ -79,8 +79,8 @@ impl Study {
         let units = units.of_groups(&choice).unwrap_or(units);
         if !choice.causes.names.is_empty() && units.count >= LEAST_UNITS {
             let (fitted, unseen) = units.quarter(seed);
-            let file = choice.again(&fitted);
-            if unseen.len() >= LEAST_UNSEEN && file.names == choice.causes.names {
+            let file = (unseen.len() >= LEAST_UNSEEN).then(|| choice.again(&fitted));
+            if let Some(file) = file.filter(|file| file.names == choice.causes.names) {
                 return Self { choice, file, unseen, units, seed };
             }
         }
