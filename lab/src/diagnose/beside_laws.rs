@@ -41,7 +41,7 @@ struct Pair<'a> {
     worth: f64,
 }
 
-/// The pairs of laws and an instrument with the largest evidence; `plain` are the rows as they are.
+/// The pairs of laws and an instrument with the largest evidence; `plain` are the rows of the search as they are.
 pub(super) fn instruments_beside_laws(
     visited: &[ImpactExplanation<'_>],
     grounds: &[&Ground],
@@ -49,7 +49,6 @@ pub(super) fn instruments_beside_laws(
     evidence: Evidence,
 ) -> Vec<LawsWithInstrument> {
     let readings = readings(plain);
-    let searched = plain.searched();
     let is_by_laws = |one: &ImpactExplanation<'_>| {
         let found = &one.fitted.found;
         let are_laws = found.iter().all(|one| matches!(one.addition, Addition::Part { .. }));
@@ -64,8 +63,8 @@ pub(super) fn instruments_beside_laws(
         // On a rival's ground its size alone is fitted anew.
         let fits = |other: &&OtherReading| ground.key.is_empty() || ground.key == other.id;
         let pairs = readings.iter().filter(fits).filter_map(|other| {
-            let (size, score) = other.best_value(|size| score(&searched, other, &hypothesis, size))?;
-            let hides_nothing = hides_nothing(&read(&searched, other, size)?.data, hypothesis.scatter[0]);
+            let (size, score) = other.best_value(|size| score(plain, other, &hypothesis, size))?;
+            let hides_nothing = hides_nothing(&read(plain, other, size)?.data, hypothesis.scatter[0]);
             let worth = evidence.gain(score, hypothesis.freedom() + other.freedom);
             let is_better = score > before || ground.is_rival();
             let hypothesis = hypothesis.clone();
@@ -80,7 +79,7 @@ pub(super) fn instruments_beside_laws(
     pairs.truncate(FITTED);
     let log_prior = instrument_prior(readings.len());
     let fitted = |pair: Pair<'_>| {
-        let (at, size) = in_turn(&pair, &searched)?;
+        let (at, size) = in_turn(&pair, plain)?;
         let ground = Ground { log_prior, ..read(plain, pair.other, size)? };
         Some(LawsWithInstrument { laws: pair.laws, at, ground })
     };
@@ -95,27 +94,27 @@ fn hides_nothing(data: &DataSplit, scatter: f64) -> bool {
 }
 
 /// Log likelihood of laws beside an instrument of a size [nats].
-fn score(searched: &DataSplit, other: &OtherReading, laws: &Hypothesis<'_>, size: f64) -> Option<f64> {
-    let ground = read(searched, other, size)?;
+fn score(plain: &DataSplit, other: &OtherReading, laws: &Hypothesis<'_>, size: f64) -> Option<f64> {
+    let ground = read(plain, other, size)?;
     let here = Hypothesis { data: &ground.data, ..laws.clone() };
     Some(ground.scores(&here).iter().sum())
 }
 
 /// Coordinates of the laws' parameters and size of the instrument, fitted in turn.
-fn in_turn(pair: &Pair<'_>, searched: &DataSplit) -> Option<(Vec<f64>, f64)> {
+fn in_turn(pair: &Pair<'_>, plain: &DataSplit) -> Option<(Vec<f64>, f64)> {
     let Pair { hypothesis, other, size, .. } = pair;
     let (mut laws, mut best) = (hypothesis.clone(), (*size, f64::NAN));
     for _ in 0..TURNS {
-        let ground = read(searched, other, best.0)?;
+        let ground = read(plain, other, best.0)?;
         let mut here = Hypothesis { data: &ground.data, ..laws.clone() };
         here.fit(&ground.data.search);
         laws = laws.with_coordinates(&here.coordinates());
         let before = best.0;
-        best = other.best_value(|size| score(searched, other, &laws, size))?;
+        best = other.best_value(|size| score(plain, other, &laws, size))?;
         if best.0 == before {
             break;
         }
     }
-    let (size, _) = other.finer(best, |size| score(searched, other, &laws, size));
+    let (size, _) = other.finer(best, |size| score(plain, other, &laws, size));
     Some((laws.coordinates(), size))
 }

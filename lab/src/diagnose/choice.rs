@@ -49,10 +49,12 @@ pub(super) struct CauseChoice {
 /// What a search visited.
 struct Visited {
     all: Vec<Explanation<Kept>>,
+    /// All rows as they are.
+    whole: DataSplit,
     grounds: Vec<Ground>,
     evidence: Evidence,
     /// The independent unit of each row of the search.
-    units: Vec<usize>,
+    units: Arc<[usize]>,
 }
 
 /// An explanation that was visited, without its rows.
@@ -75,10 +77,9 @@ impl Visited {
         self.all.iter().enumerate().map(on).collect()
     }
 
-    /// The rows of an explanation; of a rival the rows as they are: it asks the user before any physics is named.
-    fn data(&self, one: &Explanation<Kept>) -> &DataSplit {
-        let ground = &self.grounds[one.fitted.ground];
-        if ground.is_rival() { &self.grounds[0].data } else { &ground.data }
+    /// All rows, as the ground of an explanation has them.
+    fn data(&self, one: &Explanation<Kept>) -> DataSplit {
+        self.grounds[one.fitted.ground].of_all(&self.whole)
     }
 }
 
@@ -121,10 +122,11 @@ fn smallest_beside(explanations: &Explanations<ScoredCandidate>, causes: &[Strin
 }
 
 impl CauseChoice {
-    /// Chooses among explanations on the fitted rows.
-    pub fn new(data: &DataSplit, task: Task<'_>) -> Self {
+    /// Chooses among explanations on the fitted rows of `whole`.
+    pub fn new(whole: &DataSplit, task: Task<'_>) -> Self {
+        let data = &whole.searched();
         let evidence = evidence(data);
-        let plain = grounds(data, task.groups, task.text, evidence);
+        let plain = grounds(data, whole, task, evidence);
         let grounds: Vec<&Ground> = plain.iter().collect();
         let search = |grounds| ImpactSearch::new(grounds, evidence, task.effort.refitted, task.progress);
         let first = search(grounds.clone());
@@ -148,8 +150,7 @@ impl CauseChoice {
         }
         temper(&mut visited, &grounds);
         let ground = |one: &ImpactExplanation<'_>| grounds[one.fitted.ground];
-        let units = visited.first().map_or(&data.units, |best| &ground(best).data.units);
-        let units: Vec<usize> = data.search.iter().map(|&row| units[row]).collect();
+        let units = visited.first().map_or(&data.units, |best| &ground(best).data.units).clone();
         let told = |one: &ImpactExplanation<'_>| Told {
             causes: causes(one, ground(one)),
             additions: one.fitted.found.clone(),
@@ -158,15 +159,15 @@ impl CauseChoice {
         let explanations = Explanations::new(&visited, evidence, &units, told);
         let all = explanations.all().iter().map(|one| kept(&visited[one.place])).collect();
         let grounds = plain.into_iter().chain(beside.into_iter().map(|one| one.ground)).collect();
-        Self::of(Visited { all, grounds, evidence, units }, explanations)
+        Self::of(Visited { all, whole: whole.clone(), grounds, evidence, units }, explanations)
     }
 
     /// The choice of the best explanation, with what is probable enough to be named.
     fn of(visited: Visited, explanations: Explanations<ScoredCandidate>) -> Self {
         let best = &visited.all[0];
         let data = visited.data(best);
-        let discoveries = explanations.named(|one| one.addition.names(data, false), |_| false);
-        let causes = named(data, best, discoveries.iter());
+        let discoveries = explanations.named(|one| one.addition.names(&data, false), |_| false);
+        let causes = named(&data, best, discoveries.iter());
         let structure = [&[][..], &causes.names].map(|causes| smallest_beside(&explanations, causes));
         let outliers = visited.grounds[best.fitted.ground].outliers;
         let shared = SharedErrors::default();
@@ -180,7 +181,7 @@ impl CauseChoice {
     /// what is probable enough by these rows. A law counts with a curve over its inputs: they predict the same.
     pub fn again(&self, fitted: &[usize]) -> NamedCauses {
         let (visited, told) = (&self.visited, self.explanations.all());
-        let rows = &visited.grounds[0].data;
+        let rows = &visited.whole;
         let mut inside = vec![false; rows.rows.len()];
         fitted.iter().for_each(|&row| inside[row] = true);
         let places: Vec<usize> = (0..rows.search.len()).filter(|&place| inside[rows.search[place]]).collect();
@@ -196,8 +197,8 @@ impl CauseChoice {
         let explanations = Explanations::new(&some, evidence, &units, tell);
         let best = &visited.all[explanations.best().map_or(0, |best| best.place)];
         let data = visited.data(best);
-        let by_all = |one: &&ScoredCandidate| self.causes.names.contains(&one.addition.name(data));
-        let found = explanations.named(|one| one.addition.names(data, true), by_all);
+        let by_all = |one: &&ScoredCandidate| self.causes.names.contains(&one.addition.name(&data));
+        let found = explanations.named(|one| one.addition.names(&data, true), by_all);
         named(&data.fitting(fitted), best, found.into_iter())
     }
 

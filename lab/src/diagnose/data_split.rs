@@ -261,11 +261,8 @@ impl DataSplit {
         Self { covariates: covariates.into(), missing, ..Self::bare(&self.base, &rows, COARSE_DRAWS) }
     }
 
-    /// The rows of the search alone; all of them are fitted.
+    /// The rows of the search alone, in its order; all of them are fitted.
     pub fn searched(&self) -> Self {
-        if self.search.len() == self.rows.len() {
-            return self.clone();
-        }
         let places = &self.search;
         let covariate = |one: &Covariate| Covariate {
             values: one.values.at(places),
@@ -278,6 +275,7 @@ impl DataSplit {
             covariates: self.covariates.iter().map(covariate).collect(),
             noise: places.iter().map(|&row| self.noise[row]).collect(),
             units: places.iter().map(|&row| self.units[row]).collect(),
+            shared: self.shared.as_ref().map(|groups| groups.of_rows(places)),
             search: all.clone(),
             fit: all,
             held_out: Vec::new(),

@@ -1,20 +1,23 @@
 //! Grounds of explanations: the rows as they are, with errors that groups share, or read otherwise.
 
+use std::sync::Arc;
+
 use rayon::prelude::*;
 
 use super::candidate::{Class, FURTHER};
+use super::choice::Task;
 use super::data_split::DataSplit;
 use super::explanation::Evidence;
 use super::groups::GroupColumn;
 use super::hypothesis::Hypothesis;
 use super::input_error::assume;
-use super::likelihood::Outliers;
+use super::likelihood::{Offset, Outliers};
 use super::missing_inputs::MissingInputs;
 use super::reading::{OtherReading, readings};
 use super::skew::skewed;
 use super::slip::slips;
 
-/// The rows on which additions are looked for.
+/// The rows of the search, on which additions are looked for.
 #[derive(Debug, Clone)]
 pub(super) struct Ground {
     /// Empty for the rows as they are; an id of a rival of physics, or `groups:COLUMN`.
@@ -31,6 +34,8 @@ pub(super) struct Ground {
     pub log_prior: f64,
     /// Whether additions can be looked for beside it.
     pub open: bool,
+    /// Groups, of all rows of the file, whose rows share an error.
+    pub groups: Option<GroupColumn>,
     /// More outliers than expected.
     pub outliers: Option<MoreOutliers>,
 }
@@ -44,6 +49,15 @@ pub(super) struct MoreOutliers {
 }
 
 impl MoreOutliers {
+    /// The noise of rows with these outliers.
+    fn beside(self, noise: &[Offset]) -> Arc<[Offset]> {
+        let mut noise = noise.to_vec();
+        for row in &mut noise {
+            (0..2).filter(|which| self.of[*which]).for_each(|which| row.outliers[which] = self.shares);
+        }
+        noise.into()
+    }
+
     /// The quantities that have them.
     pub fn names(self) -> impl Iterator<Item = &'static str> {
         ["e_n", "e_t"].into_iter().zip(self.of).filter_map(|(name, has)| has.then_some(name))
@@ -62,14 +76,30 @@ impl Ground {
             freedom: 0.0,
             log_prior: 0.0,
             open: true,
+            groups: None,
             outliers: None,
         }
     }
 
-    /// The rows with errors that groups share.
-    pub fn grouped(data: &DataSplit, groups: &GroupColumn) -> Self {
-        let key = format!("groups:{}", groups.name);
-        Self { key, data: data.with_shared_errors(groups), freedom: 1.0, ..Self::plain(data) }
+    /// The rows of the search with errors that groups share; `whole` are all rows.
+    fn grouped(data: &DataSplit, whole: &DataSplit, groups: &GroupColumn) -> Self {
+        Self {
+            key: format!("groups:{}", groups.name),
+            data: data.with_shared_errors(&groups.of_rows(&whole.search)),
+            freedom: 1.0,
+            groups: Some(groups.clone()),
+            ..Self::plain(data)
+        }
+    }
+
+    /// All rows as this ground has them. Under a rival they are as they are: it asks the user before any physics is
+    /// named.
+    pub fn of_all(&self, whole: &DataSplit) -> DataSplit {
+        let mut all = self.groups.as_ref().map_or(whole.clone(), |groups| whole.with_shared_errors(groups));
+        if let Some(outliers) = self.outliers {
+            all.noise = outliers.beside(&whole.noise);
+        }
+        all
     }
 
     /// Whether it is another reading of the rows that physics competes with.
@@ -94,16 +124,16 @@ const TAILS: f64 = 0.25;
 /// With fewer readings, and beside stated errors, a row that looks like a gross error is evidence.
 const LEAST_WITH_RUBBISH: f64 = 12.0;
 
-/// All grounds, the rows as they are first; `text` is the file of the base model. Of the other readings those stay
-/// that have more evidence than the rows as they are.
+/// All grounds of the rows of the search, those as they are first; `whole` are all rows, `text` is the file of the base
+/// model. Of the other readings those stay that have more evidence than the rows as they are.
 pub(super) fn grounds(
     data: &DataSplit,
-    groups: &[GroupColumn],
-    text: &str,
+    whole: &DataSplit,
+    task: Task<'_>,
     evidence: Evidence,
 ) -> Vec<Ground> {
     let mut all = vec![Ground::plain(data)];
-    all.extend(groups.iter().map(|groups| Ground::grouped(data, groups)));
+    all.extend(task.groups.iter().map(|groups| Ground::grouped(data, whole, groups)));
     let expected = data.noise.iter().any(|offset| offset.outliers.contains(&Outliers::EXPECTED));
     let possible = !evidence.stated && evidence.readings >= LEAST_WITH_RUBBISH;
     let shares = match (expected, possible) {
@@ -115,19 +145,17 @@ pub(super) fn grounds(
     let gross = if expected { Outliers::EXPECTED } else { Outliers::NONE };
     let tails = possible.then_some(Outliers { tails: TAILS, ..gross });
     all.extend(rubbish.chain(tails).flat_map(|shares| with_outliers(data, shares)));
-    // Of a large file the rows that are not searched are changed only for the readings that stay.
-    let searched = data.searched();
-    all.extend(unstated_errors(data, &searched, evidence));
-    all.extend(rivals(data, &searched, text, evidence));
+    all.extend(unstated_errors(data, evidence));
+    all.extend(rivals(data, task.text, evidence));
     all
 }
 
 /// The other readings that have more evidence than the rows as they are. Slips and instruments are two kinds, as likely
 /// as each other; scatter to one side is an instrument's.
-fn rivals(data: &DataSplit, searched: &DataSplit, text: &str, evidence: Evidence) -> Vec<Ground> {
+fn rivals(data: &DataSplit, text: &str, evidence: Evidence) -> Vec<Ground> {
     let (slips, readings) = (slips(&data.base, text), readings(data));
     let best_of = |others: &[OtherReading]| -> Vec<Ground> {
-        others.par_iter().filter_map(|other| best(data, searched, other, evidence)).collect()
+        others.par_iter().filter_map(|other| best(data, other, evidence)).collect()
     };
     let skewed = skewed(data);
     let mut instruments = best_of(&readings);
@@ -151,10 +179,9 @@ fn worth(ground: &Ground, evidence: Evidence) -> f64 {
     evidence.gain(score, ground.freedom)
 }
 
-/// The rows read otherwise with the best value, tried on the rows that are `searched`. `None` if the rows as they are
-/// have more evidence.
-fn best(data: &DataSplit, searched: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Ground> {
-    let score = |value: f64| Some(worth(&read(searched, other, value)?, evidence));
+/// The rows read otherwise with the best value. `None` if the rows as they are have more evidence.
+fn best(data: &DataSplit, other: &OtherReading, evidence: Evidence) -> Option<Ground> {
+    let score = |value: f64| Some(worth(&read(data, other, value)?, evidence));
     let (value, worth) = other.finer(other.best_value(score)?, score);
     if worth > 0.0 { read(data, other, value) } else { None }
 }
@@ -164,12 +191,12 @@ type Errors = Vec<(&'static str, f64)>;
 
 /// The rows with errors that the file does not state: of each input, and of several inputs where these have more
 /// evidence together than one alone.
-fn unstated_errors(data: &DataSplit, searched: &DataSplit, evidence: Evidence) -> Vec<Ground> {
-    let mut found = with_further_errors(searched, &Vec::new(), evidence);
+fn unstated_errors(data: &DataSplit, evidence: Evidence) -> Vec<Ground> {
+    let mut found = with_further_errors(data, &Vec::new(), evidence);
     let largest = |found: &[(f64, Errors)]| found.iter().max_by(|a, b| a.0.total_cmp(&b.0)).cloned();
     let mut most = largest(&found);
     while let Some(known) = most {
-        most = largest(&with_further_errors(searched, &known.1, evidence)).filter(|more| more.0 > known.0);
+        most = largest(&with_further_errors(data, &known.1, evidence)).filter(|more| more.0 > known.0);
         found.extend(most.clone());
     }
     found.iter().filter_map(|(_, errors)| with_input_errors(data, errors)).collect()
@@ -177,11 +204,11 @@ fn unstated_errors(data: &DataSplit, searched: &DataSplit, evidence: Evidence) -
 
 /// For each further input the known errors beside its own best size, with the log evidence over the rows as they
 /// are, where that is positive [nats].
-fn with_further_errors(searched: &DataSplit, known: &Errors, evidence: Evidence) -> Vec<(f64, Errors)> {
-    let is_open = |name: &&str| known.iter().all(|one| one.0 != *name) && may_have_errors(searched, name);
+fn with_further_errors(data: &DataSplit, known: &Errors, evidence: Evidence) -> Vec<(f64, Errors)> {
+    let is_open = |name: &&str| known.iter().all(|one| one.0 != *name) && may_have_errors(data, name);
     let sized = |name: &'static str, share: f64| {
         let errors = known.iter().copied().chain([(name, share)]).collect();
-        Some((worth(&with_input_errors(searched, &errors)?, evidence), errors))
+        Some((worth(&with_input_errors(data, &errors)?, evidence), errors))
     };
     let best = |name: &'static str| {
         let sizes = SHARES.iter().filter_map(|share| sized(name, *share));
@@ -225,17 +252,13 @@ fn with_outliers(data: &DataSplit, shares: Outliers) -> Vec<Ground> {
     let kinds: &[[bool; 2]] =
         if has(0) && has(1) { &[[true, true], [true, false], [false, true]] } else { &[[true, true]] };
     let with = |&of: &[bool; 2]| {
-        let mut noise = data.noise.to_vec();
-        for row in &mut noise {
-            (0..2).filter(|which| of[*which]).for_each(|which| row.outliers[which] = shares);
-        }
-        let outliers = Some(MoreOutliers { shares, of });
+        let outliers = MoreOutliers { shares, of };
         Ground {
             key: format!("outliers:{}:{}:{of:?}", shares.gross, shares.tails),
-            data: DataSplit { noise: noise.into(), ..data.clone() },
+            data: DataSplit { noise: outliers.beside(&data.noise), ..data.clone() },
             freedom: 1.0,
             log_prior: -(kinds.len() as f64).ln(),
-            outliers,
+            outliers: Some(outliers),
             ..Ground::plain(data)
         }
     };
@@ -259,8 +282,6 @@ pub(super) fn read(data: &DataSplit, other: &OtherReading, value: f64) -> Option
         data: changed,
         slope,
         freedom: other.freedom,
-        log_prior: 0.0,
-        open: true,
-        outliers: None,
+        ..Ground::plain(data)
     })
 }

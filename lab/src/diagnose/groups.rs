@@ -78,6 +78,12 @@ impl GroupColumn {
         Some(Self { name: name.to_owned(), declared: false, of_row: of_row.into(), count })
     }
 
+    /// The groups of these rows alone.
+    pub fn of_rows(&self, rows: &[usize]) -> Self {
+        let (of_row, count) = numbered(rows.iter().map(|&row| Some(self.of_row[row])));
+        Self { of_row: of_row.into(), count, ..self.clone() }
+    }
+
     fn of(column: &DataColumn, declared: bool) -> Option<Self> {
         let labels: Vec<Option<u64>> = match &column.values {
             ColumnValues::Labels { of_row, .. } => {

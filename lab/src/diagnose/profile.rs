@@ -5,8 +5,10 @@
 //! for good: laws with jumps, such as that from sliding to rolling, make the likelihood rough, and
 //! `r` may cross the quantile more than once.
 
+use std::cell::Cell;
+
 use super::hypothesis::Hypothesis;
-use super::likelihood::Offset;
+use super::likelihood::{Offset, Scatter};
 use super::search::descend;
 
 /// Rise above the summit [nats] that makes it a foothill.
@@ -14,7 +16,7 @@ const HIGHER: f64 = 0.05;
 /// The walk ends where `r` exceeds the quantile by this factor.
 const WALK_END: f64 = 1.4;
 /// Steps of the walk, in shares of the quantile.
-const WALK_STEP: f64 = 0.4;
+const WALK_STEP: f64 = 0.5;
 /// Shortest step in the coordinate.
 const SHORTEST: f64 = 1e-4;
 /// Largest number of places on a walk.
@@ -50,14 +52,16 @@ impl<'a> LikelihoodProfile<'a> {
     pub fn new(hypothesis: &'a Hypothesis<'a>, rows: &'a [usize]) -> Self {
         let (at, offsets) = (hypothesis.coordinates(), hypothesis.offsets());
         let mut profile = Self { hypothesis, rows, offsets, at, summit: 0.0 };
-        profile.summit = profile.score(&profile.at);
+        profile.summit = profile.score(&profile.at, &Cell::new(hypothesis.scatter));
         profile
     }
 
-    /// Log score at these coordinates [nats].
-    fn score(&self, at: &[f64]) -> f64 {
-        let rows = self.hypothesis.with_coordinates(at);
-        rows.evaluate(self.rows, &self.offsets).with_fitted_scatter().score()
+    /// Log score at these coordinates [nats]; the scatter is fitted from that of the `last` ones, which are near.
+    fn score(&self, at: &[f64], last: &Cell<Scatter>) -> f64 {
+        let rows = self.hypothesis.with_coordinates(at).evaluate(self.rows, &self.offsets);
+        let fitted = rows.with_scatter(last.get()).with_fitted_scatter();
+        last.set(fitted.scatter);
+        fitted.score()
     }
 
     /// The outermost coordinate in the direction `sign` at which `r` is at most `quantile`; `error`
@@ -90,7 +94,8 @@ impl<'a> LikelihoodProfile<'a> {
     fn place(&self, coordinate: usize, value: f64, near: &ProfilePoint) -> Result<ProfilePoint, Higher> {
         let others = |at: &[f64]| [&at[..coordinate], &at[coordinate + 1..]].concat();
         let whole = |others: &[f64]| [&others[..coordinate], &[value], &others[coordinate..]].concat();
-        let cost = |some: &[f64]| -self.score(&whole(some));
+        let last = Cell::new(self.hypothesis.scatter);
+        let cost = |some: &[f64]| -self.score(&whole(some), &last);
         // Straight on from the summit through the nearest place, or as there, whichever is better.
         let walked = near.at[coordinate] - self.at[coordinate];
         let further = if walked == 0.0 { 1.0 } else { (value - self.at[coordinate]) / walked };
