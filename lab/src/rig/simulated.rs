@@ -11,6 +11,7 @@
 //! captures.
 
 use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
 
 use rayon::prelude::*;
 
@@ -88,6 +89,8 @@ struct Paths<'a> {
     walls: Vec<String>,
     /// In independent blocks.
     blocks: Vec<Vec<PathTree<'a>>>,
+    /// Held by the thread that follows a block.
+    followed: Vec<Mutex<()>>,
     /// What the base law gives with many particles, and in these blocks.
     base: Vec<[PredictedReading; 2]>,
     /// Number of particles that tell what numbers of the case change.
@@ -244,13 +247,18 @@ impl<'a> Paths<'a> {
             let (predicted, hits) = paths.tallied(&rig.case.model)?;
             let readings = || rig.experiment.readings.iter().zip(&predicted);
             let seen = largest_share(readings().map(|(reading, one)| (one.variance, reading, one)));
-            if particles >= most || hits >= HITS[usize::from(seen > 1.0)] {
+            // Hits grow, and variances fall, with the number of particles.
+            let is_enough = |times: f64| times * hits >= HITS[usize::from(seen > times)];
+            if particles >= most || is_enough(1.0) {
                 let possible =
                     readings().map(|(reading, one)| (possible_variance(reading, one), reading, one));
                 let times = largest_share(possible).ceil().clamp(1.0, BASE_PARTICLES as f64);
                 return paths.with_base(times as u64);
             }
-            particles *= 2;
+            let own = particles;
+            while particles < most && !is_enough((particles / own) as f64) {
+                particles *= 2;
+            }
         }
     }
 
@@ -287,8 +295,9 @@ impl<'a> Paths<'a> {
         {
             return Err(PredictionError::new(&rig.place, &trouble));
         }
+        let followed = blocks.iter().map(|_| Mutex::default()).collect();
         let (base, moved_particles, unmoved, changes) = Default::default();
-        Ok(Self { rig, walls, blocks, base, moved_particles, unmoved, changes })
+        Ok(Self { rig, walls, blocks, followed, base, moved_particles, unmoved, changes })
     }
 
     fn predict(&self, change: &ModelChange<'_>) -> Result<Vec<PredictedReading>, PredictionError> {
@@ -377,21 +386,43 @@ impl<'a> Paths<'a> {
 
     /// What a model gives for these particles, and how often they hit a wall.
     fn tallied(&self, model: &Model) -> Result<(Vec<PredictedReading>, f64), PredictionError> {
+        let mut left: Vec<usize> = (0..self.blocks.len()).collect();
+        let mut done: Vec<(usize, Tally, f64)> = Vec::new();
+        while let Some(&first) = left.first() {
+            // Two threads that follow the same particles one after the other would wait for each other's flights.
+            let free = left.iter().find_map(|&block| Some((block, self.followed[block].try_lock().ok()?)));
+            let (block, _guard) = free.unwrap_or_else(|| {
+                (first, self.followed[first].lock().unwrap_or_else(PoisonError::into_inner))
+            });
+            let (tally, hits) = self.tallied_block(&self.blocks[block], model)?;
+            done.push((block, tally, hits));
+            left.retain(|one| *one != block);
+        }
+        done.sort_unstable_by_key(|(block, ..)| *block);
+        let mut all = Tally::new(&self.rig.experiment.readings, &self.walls);
+        let mut hits = 0.0;
+        for (_, tally, own) in done {
+            all.add(tally);
+            all.end_block();
+            hits += own;
+        }
+        Ok((self.predicted(all), hits))
+    }
+
+    /// The same of one block.
+    fn tallied_block(&self, block: &[PathTree<'_>], model: &Model) -> Result<(Tally, f64), PredictionError> {
         let RigCase { case, experiment, place, .. } = self.rig;
         let mut tally = Tally::new(&experiment.readings, &self.walls);
         let mut hits = 0.0;
-        for block in &self.blocks {
-            for particle in block {
-                let followed = particle.follow(model, |hit| {
-                    hits += 1.0;
-                    tally.hit(&tallied(case, hit));
-                });
-                followed.map_err(|error| PredictionError::new(place, &error))?;
-                tally.end_particle_of_block(particle.mass);
-            }
-            tally.end_block();
+        for particle in block {
+            let followed = particle.follow(model, |hit| {
+                hits += 1.0;
+                tally.hit(&tallied(case, hit));
+            });
+            followed.map_err(|error| PredictionError::new(place, &error))?;
+            tally.end_particle_of_block(particle.mass);
         }
-        Ok((self.predicted(tally), hits))
+        Ok((tally, hits))
     }
 
     /// The predictions of a tally. Where nothing moves particles at random, the noise of differences between
