@@ -1204,6 +1204,39 @@ fn a_sheet_that_leaves_much_out_is_said_with_the_results() {
     assert_eq!(page.matches(said).count(), 1);
 }
 
+/// A setting gives what the case file with this value gives, byte for byte but for the title.
+#[test]
+fn a_setting_is_the_case_with_that_value() {
+    let folder = tempfile::tempdir().unwrap();
+    let swept = "[sweep]\nkey = \"particle_temperature\"\nvalues = [300, 380]\n";
+    std::fs::write(folder.path().join("rig.toml"), rig(40, 355.0, 1) + swept).unwrap();
+    std::fs::write(folder.path().join("warm.toml"), rig(30, 371.5, 1)).unwrap();
+    let set = ["--set", "particles.temperature=371.5", "--set", "particles.count = 30"];
+    let done = nearwall(folder.path(), &[&["simulate", "rig.toml", "-o", "set"][..], &set].concat());
+    let notes = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(0), "{notes}");
+    assert!(notes.contains("the case's [sweep] is left out"), "{notes}");
+    assert_eq!(nearwall(folder.path(), &["simulate", "warm.toml"]).status.code(), Some(0));
+    let read = |file: &str| std::fs::read_to_string(folder.path().join(file)).unwrap();
+    assert!(read("set/impacts.csv") == read("warm/impacts.csv"));
+    let [set, own] = ["set/summary.json", "warm/summary.json"].map(|file| {
+        let mut summary: serde_json::Value = serde_json::from_str(&read(file)).unwrap();
+        (summary["title"].take(), summary)
+    });
+    assert_eq!(set.1, own.1);
+    assert!(
+        set.0.as_str().unwrap().ends_with(", particles.temperature=371.5, particles.count = 30"),
+        "{}",
+        set.0
+    );
+    for (setting, said) in [("gas.temprature=300", "temprature"), ("gas.temperature", "give KEY=VALUE")] {
+        let refused = nearwall(folder.path(), &["simulate", "rig.toml", "--set", setting, "-o", "refused"]);
+        let text = String::from_utf8_lossy(&refused.stderr);
+        assert!(refused.status.code() == Some(1) && text.contains(said), "{text}");
+    }
+    assert!(!folder.path().join("refused").exists());
+}
+
 #[test]
 fn the_command_writes_its_files_and_refuses_bad_cases() {
     let folder = tempfile::tempdir().unwrap();

@@ -17,13 +17,22 @@ use crate::sets::{Set, recipes};
 /// Particles on both sides.
 const COUNT: usize = 4000;
 
-/// Largest of the differences over their Monte Carlo errors, and how many there are.
+/// Seeds of a simulation: the first one, and more where it is off by more than [`FAR`] errors. Captures of a few heavy
+/// particles scatter more than their error tells, and the mean of all seeds tells these from a disagreement.
+const SEEDS: std::ops::Range<u64> = 7..17;
+const FAR: f64 = 4.0;
+
+/// The differences over their Monte Carlo errors.
 fn differences(lab: &Lab, settings: Vec<f64>, rng: &mut SetRng, name: &str) -> Vec<(String, f64)> {
     let folder = Folder::of(name);
     std::fs::write(folder.path.join("base.toml"), lab.model()).unwrap();
     let one = lab.measure(settings.clone(), 100.0, rng);
     let Some(one) = one else { return vec![] };
-    let theirs = run::simulate(lab, &folder.path, "base.toml", &one, COUNT);
+    let simulated = |seed: u64| {
+        let tracks = run::simulate(lab, &folder.path, "base.toml", &one, [COUNT as u64, seed]);
+        let of = |&(observable, wall): &(Observable, usize)| observable.of(&tracks, wall);
+        lab.readings.iter().map(of).collect::<Vec<f64>>()
+    };
     // Parts of the particles tell the error of the whole.
     let parts: Vec<Vec<f64>> = (0..20)
         .map(|_| {
@@ -32,9 +41,8 @@ fn differences(lab: &Lab, settings: Vec<f64>, rng: &mut SetRng, name: &str) -> V
         })
         .collect();
     let ours = well_known(lab, &settings, rng);
-    let compare = |index: usize| {
-        let (observable, wall) = lab.readings[index];
-        let theirs = observable.of(&theirs, wall);
+    let compare = |index: usize, theirs: f64, share: f64| {
+        let (observable, _) = lab.readings[index];
         let squares: f64 = parts.iter().map(|part| (part[index] - ours[index]).powi(2)).sum();
         let floor = if observable.is_share() {
             (ours[index] * (1.0 - ours[index]) / COUNT as f64).sqrt().max(0.5 / COUNT as f64)
@@ -44,9 +52,19 @@ fn differences(lab: &Lab, settings: Vec<f64>, rng: &mut SetRng, name: &str) -> V
         let error = (squares / 400.0).sqrt().max(floor);
         let text = format!("{} {} {} {theirs}", name, observable.name(), ours[index]);
         // Where hardly anything rebounds, parts without a mean tell no error.
-        squares.is_finite().then_some((text, (theirs - ours[index]) / error))
+        squares.is_finite().then_some((text, (theirs - ours[index]) / (share.sqrt() * error)))
     };
-    (0..lab.readings.len()).filter_map(compare).collect()
+    let all = |theirs: &[f64], share: f64| -> Vec<(String, f64)> {
+        (0..lab.readings.len()).filter_map(|index| compare(index, theirs[index], share)).collect()
+    };
+    let first = all(&simulated(SEEDS.start), 1.0);
+    if first.iter().all(|(_, off)| off.abs() < FAR) {
+        return first;
+    }
+    let runs: Vec<Vec<f64>> = SEEDS.map(simulated).collect();
+    let mean = |index| runs.iter().map(|run| run[index]).sum::<f64>() / runs.len() as f64;
+    // What the generator gives rests on ten times as many particles, too.
+    all(&(0..lab.readings.len()).map(mean).collect::<Vec<f64>>(), 2.0 / runs.len() as f64)
 }
 
 /// Every rig's observables agree with the simulation of its base model.

@@ -119,8 +119,9 @@ fn answer(folder: &Path, output: &Output) -> Result<Value, String> {
 fn predict_fresh(set: &Set, folder: &Path, seed: u64, answer: &mut Answer) {
     let lab = set.lab();
     if !lab.rig.hits_once() {
-        let simulated =
-            |one: &Experiment| lab.values(&simulate(lab, folder, "out/extended.toml", one, PREDICTED));
+        let simulated = |one: &Experiment| {
+            lab.values(&simulate(lab, folder, "out/extended.toml", one, [PREDICTED as u64, 7]))
+        };
         answer.predicted = Some(set.fresh.iter().map(simulated).collect());
         return;
     }
@@ -175,14 +176,20 @@ pub fn predict(lab: &Lab, folder: &Path, model: &str, particles: &[Vec<Particle>
 }
 
 /// An experiment's particles as `nearwall simulate` lets them fly with a model.
-pub fn simulate(lab: &Lab, folder: &Path, model: &str, one: &Experiment, count: usize) -> Vec<Track> {
+pub fn simulate(
+    lab: &Lab,
+    folder: &Path,
+    model: &str,
+    one: &Experiment,
+    [count, seed]: [u64; 2],
+) -> Vec<Track> {
     let mut text = std::fs::read_to_string(folder.join(model)).unwrap();
     if let Some(at) = lab.knobs.iter().position(|(knob, _)| *knob == Knob::Layer) {
         let wall = format!("[walls.default]\nlayer_thickness = {:e}", one.settings[at]);
         text = text.replace("[walls.default]", &wall);
     }
     std::fs::write(folder.join("fresh.model.toml"), text).unwrap();
-    let case = lab.rig.case(&lab.source_at(&one.settings), "fresh.model.toml", count, 7);
+    let case = lab.rig.case(&lab.source_at(&one.settings), "fresh.model.toml", count as usize, seed);
     std::fs::write(folder.join("fresh.toml"), case).unwrap();
     let output = nearwall(folder, &["simulate", "fresh.toml", "-o", "fresh"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

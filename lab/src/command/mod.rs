@@ -94,6 +94,15 @@ fn note<N: std::fmt::Display>(notes: impl IntoIterator<Item = N>) {
     }
 }
 
+/// Keys and values of settings of a case, each given as `KEY=VALUE`.
+fn case_settings(given: &[String]) -> Result<Vec<(String, String)>, String> {
+    let one = |setting: &String| {
+        let parts = setting.split_once('=').ok_or_else(|| format!("--set {setting}: give KEY=VALUE"))?;
+        Ok((parts.0.trim().to_owned(), parts.1.trim().to_owned()))
+    };
+    given.iter().map(one).collect()
+}
+
 /// Reads the readings of a rig and prints the notes on them.
 fn read_rig(path: &Path) -> Result<RigMeasurements, Box<dyn std::error::Error>> {
     let file = path.display().to_string();

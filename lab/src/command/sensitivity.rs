@@ -42,12 +42,7 @@ const PRINTED: usize = 20;
 
 pub fn run(arguments: &Arguments) -> CommandResult {
     let mut text = CaseText::from_file(&arguments.case)?;
-    let mut settings = Vec::new();
-    for setting in &arguments.set {
-        let parts = setting.split_once('=').ok_or_else(|| format!("--set {setting}: give KEY=VALUE"))?;
-        settings.push((parts.0.trim().to_owned(), parts.1.trim().to_owned()));
-    }
-    text.change("--set", &settings)?;
+    text.change("--set", &super::case_settings(&arguments.set)?)?;
     let case = SensitivityCase::new(text, arguments.particles.max(1), arguments.clean_walls);
     let at_case = |error: crate::rig::PredictionError| format!("{}: {error}", arguments.case.display());
     let case = case.map_err(at_case)?;

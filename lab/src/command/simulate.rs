@@ -6,7 +6,7 @@ use crate::atomic_file::{AtomicFile, WriteError, make_folder};
 use crate::report::{number, percent, standalone_page};
 use crate::results::share;
 use crate::results::standalone::{Doubts, ImpactRecorder, Run, run as run_case, summary, write_deposits};
-use crate::rig::{CaptureBand, DrawnModels, add_capture_bands};
+use crate::rig::{CaptureBand, CaseText, DrawnModels, add_capture_bands};
 use crate::simulate::Case;
 
 use super::{CommandResult, progress};
@@ -14,7 +14,8 @@ use super::{CommandResult, progress};
 /// Follows particles through a prescribed gas until walls capture them or they leave
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  nearwall simulate tutorials/standalone/waxRig.toml -o waxRig\n  \
-    nearwall simulate rig.toml --draws diagnosis/draws\n\n\
+    nearwall simulate rig.toml --draws diagnosis/draws\n  \
+    nearwall simulate rig.toml --set gas.temperature=350 --set particles.count=1000 -o warmer\n\n\
     Writes impacts.csv (every hit, up to a number of rows), summary.json and report.html into the folder;\n\
     with a [deposit], also deposit.csv (what lies on the walls over time).")]
 pub struct Arguments {
@@ -23,13 +24,16 @@ pub struct Arguments {
     /// Output folder; the case file's name without its extension by default
     #[arg(short, value_name = "DIR")]
     output: Option<PathBuf>,
+    /// A setting of the case, as a dotted key; can be repeated. A [sweep] is then left out
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
     /// Folder of model files that `nearwall diagnose --draws` wrote: adds the 95 % bands of what the walls capture
     #[arg(long, value_name = "FOLDER")]
     draws: Option<PathBuf>,
 }
 
 pub fn run(arguments: &Arguments) -> CommandResult {
-    let mut case = Case::from_file(&arguments.case)?;
+    let mut case = read(arguments)?;
     let beside = || Path::new(arguments.case.file_stem().unwrap_or_default()).to_owned();
     let folder = arguments.output.clone().unwrap_or_else(beside);
     let draws =
@@ -40,6 +44,18 @@ pub fn run(arguments: &Arguments) -> CommandResult {
     let doubts = Doubts::of_all(runs.iter().map(|run| &run.totals.doubts));
     doubts.lines().iter().for_each(|line| text += &format!("  {line}\n"));
     super::print_page(&text, &folder.join("report.html"))
+}
+
+/// The case with the settings that are changed, which its title then names.
+fn read(arguments: &Arguments) -> CommandResult<Case> {
+    if arguments.set.is_empty() {
+        return Ok(Case::from_file(&arguments.case)?);
+    }
+    let text = CaseText::from_file(&arguments.case)?;
+    let mut case = text.with("--set", &super::case_settings(&arguments.set)?)?;
+    super::note(text.has_sweep().then_some("with --set the case's [sweep] is left out"));
+    case.title += &format!(", {}", arguments.set.join(", "));
+    Ok(case)
 }
 
 /// The particles of a run and, with drawn models, the bands of what its walls capture.
