@@ -21,7 +21,9 @@ use super::case_text::{CaseText, SettingError, SettingFault};
 use super::tally::{PredictedReading, TalliedHit, Tally, away_from_edges};
 use super::{Forward, ModelChange, PredictionError};
 use crate::dataset::{Experiment, RigMeasurements, RigReading};
-use crate::simulate::{BLOCKS, Case, ExpectedHit, PathTree, Start, even_starts, follow_exactly, run_once};
+use crate::simulate::{
+    BLOCKS, Case, ExpectedHit, PathTree, Room, Start, even_starts, follow_exactly, run_once,
+};
 use nearwall::effect::CurveInput;
 use nearwall::model::Model;
 
@@ -282,9 +284,9 @@ impl<'a> Paths<'a> {
     fn new(rig: &'a RigCase, particles: u64) -> Result<Self, PredictionError> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
         let starts = even_starts(&rig.case, particles);
-        let kept = (KEPT_FLIGHTS / particles.max(1)) as usize;
+        let room = Room::new(KEPT_FLIGHTS);
         let fly = |block: &Vec<Start>| -> Vec<_> {
-            block.par_iter().map(|start| PathTree::new(&rig.case, *start, kept)).collect()
+            block.par_iter().map(|start| PathTree::new(&rig.case, *start, &room)).collect()
         };
         let flown: Vec<_> = starts.iter().map(fly).collect();
         let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());

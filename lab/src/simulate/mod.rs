@@ -54,7 +54,7 @@ pub use surface::{Surface, SurfaceKind, SurfaceShape};
 pub use tracker::Start;
 pub use trajectory::{Fate, Hit, Trajectory};
 pub use wall_deposits::{BinHistory, DepositHistory, WallHistory};
-pub use weighted::{ExpectedHit, PathTree, follow_exactly};
+pub use weighted::{ExpectedHit, PathTree, Room, follow_exactly};
 
 use rayon::prelude::*;
 

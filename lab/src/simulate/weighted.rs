@@ -12,7 +12,8 @@
 //! average out. Where a threshold is sharp some bias is left, which nearly cancels in differences
 //! between models.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::atomic::{AtomicI64, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -36,8 +37,8 @@ const CELL_WIDTHS: [f64; 3] = [0.15, 0.15, 0.5];
 const WIDER: f64 = 3.0;
 /// Most hits that are followed: an elastic law would keep a particle in a channel for ever.
 const MOST_FOLLOWED_HITS: u64 = 40;
-/// Most flights of a particle that are kept, in a sample of a case.
-const KEPT: usize = 100;
+/// Flights that are kept in a sample of a case, for each particle.
+const KEPT: u64 = 100;
 
 /// A cell of the grid of outcomes.
 type OutcomeCell = [i32; 3];
@@ -57,8 +58,8 @@ struct Node<'a> {
 #[derive(Debug)]
 pub struct PathTree<'a> {
     case: &'a Case,
-    /// The first contact, if there is one, and the number of flights kept after it.
-    first: Mutex<(Option<Box<Node<'a>>>, usize)>,
+    /// The first contact, if there is one.
+    first: Mutex<Option<Box<Node<'a>>>>,
     /// From which the random numbers of its hits follow.
     number: u64,
     /// Mass at the start [kg].
@@ -67,8 +68,24 @@ pub struct PathTree<'a> {
     pub weight: f64,
     /// The shift of the grid, in cells.
     shift: [f64; 3],
-    /// Most flights after the first contact that are kept.
-    most_kept: usize,
+    /// Flights after first contacts that may yet be kept.
+    room: Room,
+}
+
+/// Number of flights that may yet be kept, of all particles of a case together: some rebound often, most hardly ever.
+#[derive(Debug, Clone)]
+pub struct Room(Arc<AtomicI64>);
+
+impl Room {
+    /// For so many flights.
+    pub fn new(flights: u64) -> Self {
+        Self(Arc::new(AtomicI64::new(i64::try_from(flights).unwrap_or(i64::MAX))))
+    }
+
+    /// Takes the place of a flight, if there is one. What is predicted does not depend on it.
+    fn take(&self) -> bool {
+        self.0.load(Ordering::Relaxed) > 0 && self.0.fetch_sub(1, Ordering::Relaxed) > 0
+    }
 }
 
 /// A hit of a particle with a share of its weight.
@@ -118,20 +135,21 @@ impl<'a> PathTree<'a> {
         let count = case.count();
         let wanted = particles.min(count).max(1);
         let numbers: Vec<u64> = (0..wanted).map(|place| place * count / wanted).collect();
-        numbers.par_iter().map(|number| Self::new(case, Start::drawn(case, *number).0, KEPT)).collect()
+        let room = Room::new(KEPT * wanted);
+        numbers.par_iter().map(|number| Self::new(case, Start::drawn(case, *number).0, &room)).collect()
     }
 
-    /// Flies a particle from its start to its first contact; `most_kept` of its later flights are kept.
+    /// Flies a particle from its start to its first contact; its later flights are kept while there is room.
     ///
     /// # Errors
     /// Why it cannot be followed.
-    pub fn new(case: &'a Case, start: Start, most_kept: usize) -> Result<Self, SimulationError> {
+    pub fn new(case: &'a Case, start: Start, room: &Room) -> Result<Self, SimulationError> {
         let ([mass, weight], first) = Node::first(case, start)?;
         let random = impact_random(case, start.number, 0);
         // Streams that no effect draws from.
         let shift = [100, 101, 102].map(|stream| random.uniform(stream));
-        let first = Mutex::new((first.map(Box::new), 0));
-        Ok(Self { case, first, number: start.number, mass, weight, shift, most_kept })
+        let first = Mutex::new(first.map(Box::new));
+        Ok(Self { case, first, number: start.number, mass, weight, shift, room: room.clone() })
     }
 
     /// Follows the particle under a model, and hands over each of its hits.
@@ -144,7 +162,6 @@ impl<'a> PathTree<'a> {
         mut observer: impl FnMut(&ExpectedHit<'_>),
     ) -> Result<(), ImpactError> {
         let mut first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let (first, kept) = &mut *first;
         let Some(mut node) = first.as_deref_mut() else { return Ok(()) };
         let mut passing;
         let mut share = 1.0;
@@ -154,17 +171,16 @@ impl<'a> PathTree<'a> {
             let (cell, middle) = self.cell(&node.contact.impact, &outcome);
             let place = match node.next.binary_search_by(|(known, _)| known.cmp(&cell)) {
                 Ok(place) => place,
-                Err(_) if *kept >= self.most_kept => {
+                Err(place) if self.room.take() => {
+                    let next = node.after_rebound(&middle).map(Box::new);
+                    node.next.insert(place, (cell, next));
+                    place
+                }
+                Err(_) => {
                     let Some(next) = node.after_rebound(&middle) else { return Ok(()) };
                     passing = next;
                     node = &mut passing;
                     continue;
-                }
-                Err(place) => {
-                    let next = node.after_rebound(&middle).map(Box::new);
-                    node.next.insert(place, (cell, next));
-                    *kept += 1;
-                    place
                 }
             };
             match &mut node.next[place].1 {
@@ -198,14 +214,14 @@ impl<'a> PathTree<'a> {
     /// The model of its injection where it is not that of the case.
     pub fn own_model(&self) -> Option<&'a Model> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        first.0.as_ref()?.tracker.injection.model.as_ref()
+        first.as_ref()?.tracker.injection.model.as_ref()
     }
 
     /// An input or group of the first contact with a wall, with what the model file puts on that wall [its unit]; NaN
     /// where it has no value.
     pub fn input(&self, model: &Model, input: CurveInput) -> Option<f64> {
         let first = self.first.lock().unwrap_or_else(PoisonError::into_inner);
-        let contact = &first.0.as_ref()?.contact;
+        let contact = &first.as_ref()?.contact;
         model.group_value(contact.wall, &contact.impact, input).ok()
     }
 }
