@@ -119,9 +119,8 @@ fn answer(folder: &Path, output: &Output) -> Result<Value, String> {
 fn predict_fresh(set: &Set, folder: &Path, seed: u64, answer: &mut Answer) {
     let lab = set.lab();
     if !lab.rig.hits_once() {
-        let simulated = |one: &Experiment| {
-            lab.values(&simulate(lab, folder, "out/extended.toml", one, [PREDICTED as u64, 7]))
-        };
+        let simulated =
+            |one: &Experiment| lab.values(&simulate(lab, folder, "out/extended.toml", one, PREDICTED, 7));
         answer.predicted = Some(set.fresh.iter().map(simulated).collect());
         return;
     }
@@ -181,7 +180,8 @@ pub fn simulate(
     folder: &Path,
     model: &str,
     one: &Experiment,
-    [count, seed]: [u64; 2],
+    count: usize,
+    seed: u64,
 ) -> Vec<Track> {
     let mut text = std::fs::read_to_string(folder.join(model)).unwrap();
     if let Some(at) = lab.knobs.iter().position(|(knob, _)| *knob == Knob::Layer) {
@@ -189,7 +189,7 @@ pub fn simulate(
         text = text.replace("[walls.default]", &wall);
     }
     std::fs::write(folder.join("fresh.model.toml"), text).unwrap();
-    let case = lab.rig.case(&lab.source_at(&one.settings), "fresh.model.toml", count as usize, seed);
+    let case = lab.rig.case(&lab.source_at(&one.settings), "fresh.model.toml", count, seed);
     std::fs::write(folder.join("fresh.toml"), case).unwrap();
     let output = nearwall(folder, &["simulate", "fresh.toml", "-o", "fresh"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));

@@ -13,7 +13,7 @@ use super::{CommandResult, progress};
 
 /// Follows particles through a prescribed gas until walls capture them or they leave
 #[derive(clap::Args)]
-#[command(after_help = "Example:\n  nearwall simulate tutorials/standalone/waxRig.toml -o waxRig\n  \
+#[command(after_help = "Examples:\n  nearwall simulate tutorials/standalone/waxRig.toml -o waxRig\n  \
     nearwall simulate rig.toml --draws diagnosis/draws\n  \
     nearwall simulate rig.toml --set gas.temperature=350 --set particles.count=1000 -o warmer\n\n\
     Writes impacts.csv (every hit, up to a number of rows), summary.json and report.html into the folder;\n\

@@ -95,7 +95,8 @@ impl Ground {
     /// All rows as this ground has them. Under a rival they are as they are: it asks the user before any physics is
     /// named.
     pub fn of_all(&self, whole: &DataSplit) -> DataSplit {
-        let mut all = self.groups.as_ref().map_or(whole.clone(), |groups| whole.with_shared_errors(groups));
+        let mut all =
+            self.groups.as_ref().map_or_else(|| whole.clone(), |groups| whole.with_shared_errors(groups));
         if let Some(outliers) = self.outliers {
             all.noise = outliers.beside(&whole.noise);
         }

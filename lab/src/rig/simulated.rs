@@ -128,7 +128,7 @@ const BASE_PARTICLES: u64 = 4;
 const BASE_OVER_MOVED: u64 = 16;
 /// Particles that tell whether a number changes anything at all.
 const SCREENED: u64 = 64;
-/// Most flights that are kept, of all experiments together [1]: some 600 MB.
+/// Most flights that are kept, of all experiments together [1]: a diagnosis of ten turbulent ducts takes 0.3 to 0.4 GB.
 const KEPT_FLIGHTS: u64 = 1_000_000;
 /// Fall of the sum of squared residuals by a move of a number, from which on the readings speak for it [1]: a right
 /// number exceeds it in a sixth of cases.
@@ -142,16 +142,16 @@ impl<'a> SimulatedRig<'a> {
     /// # Errors
     /// Why no particle of an experiment can be followed.
     pub fn new(rigs: &'a [RigCase]) -> Result<Self, PredictionError> {
-        let kept = KEPT_FLIGHTS / rigs.len().max(1) as u64;
-        let runs = rigs.par_iter().map(|rig| Paths::adapted(rig, kept)).collect::<Result<Vec<_>, _>>()?;
+        let room = Room::new(KEPT_FLIGHTS);
+        let runs = rigs.par_iter().map(|rig| Paths::adapted(rig, &room)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self::of(rigs, runs))
     }
 
     /// The same of experiments that nobody has made yet, with about `particles` particles of each; without those whose
     /// walls or particles get where the model is not known.
     pub fn of_proposals(rigs: &'a [RigCase], particles: u64) -> Self {
-        let kept = KEPT_FLIGHTS / rigs.len().max(1) as u64;
-        let fly = |rig| Paths::new(rig, particles, kept)?.with_base(1);
+        let room = Room::new(KEPT_FLIGHTS);
+        let fly = |rig| Paths::new(rig, particles, &room)?.with_base(1);
         Self::of(rigs, rigs.par_iter().filter_map(|rig| fly(rig).ok()).collect())
     }
 
@@ -240,11 +240,11 @@ fn largest_share<'r>(known: impl Iterator<Item = (f64, &'r RigReading, &'r Predi
 }
 
 impl<'a> Paths<'a> {
-    /// With as many particles as the readings need, within what their hits cost; `kept` of their flights are kept.
-    fn adapted(rig: &'a RigCase, kept: u64) -> Result<Self, PredictionError> {
+    /// With as many particles as the readings need, within what their hits cost.
+    fn adapted(rig: &'a RigCase, room: &Room) -> Result<Self, PredictionError> {
         let [mut particles, most] = PARTICLE_RANGE;
         loop {
-            let paths = Self::new(rig, particles, kept)?;
+            let paths = Self::new(rig, particles, room)?;
             if rig.case.deposit.is_some() {
                 return Ok(paths);
             }
@@ -283,12 +283,11 @@ impl<'a> Paths<'a> {
         self.blocks.iter().map(Vec::len).sum::<usize>() as u64
     }
 
-    fn new(rig: &'a RigCase, particles: u64, kept: u64) -> Result<Self, PredictionError> {
+    fn new(rig: &'a RigCase, particles: u64, room: &Room) -> Result<Self, PredictionError> {
         let walls = rig.case.surfaces.iter().map(|surface| surface.name.clone()).collect();
         let starts = even_starts(&rig.case, particles);
-        let room = Room::new(kept);
         let fly = |block: &Vec<Start>| -> Vec<_> {
-            block.par_iter().map(|start| PathTree::new(&rig.case, *start, &room)).collect()
+            block.par_iter().map(|start| PathTree::new(&rig.case, *start, room)).collect()
         };
         let flown: Vec<_> = starts.iter().map(fly).collect();
         let first_trouble = flown.iter().flatten().find_map(|one| one.as_ref().err().cloned());

@@ -72,7 +72,7 @@ pub struct PathTree<'a> {
     room: Room,
 }
 
-/// Number of flights that may yet be kept, of all particles of a case together: some rebound often, most hardly ever.
+/// Number of flights that may yet be kept, of all particles together: some rebound often, most hardly ever.
 #[derive(Debug, Clone)]
 pub struct Room(Arc<AtomicI64>);
 
